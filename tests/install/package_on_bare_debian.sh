@@ -91,9 +91,9 @@ Xvfb -displayfd 3 -screen 0 1280x800x24 -listen tcp 3>"$scratch/display" >/dev/n
 display=$!
 for tenth in {1..100}; do [[ -s $scratch/display ]] && break; sleep 0.1; done
 number=$(cat "$scratch/display")
-inside env DISPLAY="127.0.0.1:$number" timeout 900 octant view straight --bench 20 --size 320x180 --json >"$scratch/bench.json" ||
+inside env DISPLAY="127.0.0.1:$number" timeout 900 octant view straight --window bench=20 --size 320x180 --json >"$scratch/bench.json" ||
   fail "octant view"
-grep -q '"panels_hidden"' "$scratch/bench.json" || fail "octant view --bench --json: $(cat "$scratch/bench.json")"
+grep -q '"panels_hidden"' "$scratch/bench.json" || fail "octant view --window bench=20 --json: $(cat "$scratch/bench.json")"
 echo "octant view: a window on a display"
 
 # Nothing is left.

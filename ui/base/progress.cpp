@@ -11,8 +11,8 @@
 namespace octant::ui::base {
 
 std::string rate_text(double per_s) {
-    constexpr double tells_by_whole_numbers = 10.0;
-    return per_s >= tells_by_whole_numbers ? fmt::format("{:.0f}", per_s) : fmt::format("{:.2g}", per_s);
+    constexpr double min_rate_in_whole_numbers = 10.0;
+    return per_s >= min_rate_in_whole_numbers ? fmt::format("{:.0f}", per_s) : fmt::format("{:.2g}", per_s);
 }
 
 Progress::Progress(std::string what, int total, bool quiet, std::string steps)

@@ -13,7 +13,7 @@ struct HandledSignal {
     const char* name;
 };
 
-constexpr std::array signal_handler_is_set{
+constexpr std::array handled_signals{
     HandledSignal{SIGINT, "SIGINT"}, HandledSignal{SIGTERM, "SIGTERM"}, HandledSignal{SIGHUP, "SIGHUP"}};
 
 volatile std::sig_atomic_t received_signal = 0;
@@ -43,17 +43,17 @@ void set_handler(int number, void (*handler)(int)) {
 } // namespace
 
 StopSignals::StopSignals() {
-    for (const HandledSignal& stop : signal_handler_is_set) { set_handler(stop.number, store_signal); }
+    for (const HandledSignal& stop : handled_signals) { set_handler(stop.number, store_signal); }
 }
 
 StopSignals::~StopSignals() {
-    for (const HandledSignal& stop : signal_handler_is_set) { set_handler(stop.number, SIG_DFL); }
+    for (const HandledSignal& stop : handled_signals) { set_handler(stop.number, SIG_DFL); }
 }
 
 bool StopSignals::received() { return received_signal != 0; }
 
 std::string StopSignals::name() {
-    for (const HandledSignal& stop : signal_handler_is_set) {
+    for (const HandledSignal& stop : handled_signals) {
         if (stop.number == received_signal) { return stop.name; }
     }
     return {};

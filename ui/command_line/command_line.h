@@ -3,20 +3,8 @@
 #include "ui/command_line/command.h"
 
 #include <functional>
-#include <optional>
-#include <span>
-#include <string>
-#include <string_view>
 
 namespace octant::ui::command_line {
-
-/// Returns the known word that a person meant who wrote `word`: the one that the fewest letters, left out, added,
-/// changed or swapped with their neighbours, make of it, or that begins with it. Nothing where no known word is near,
-/// or where two are equally near.
-std::optional<std::string> nearest_spelling(std::string_view word, std::span<const std::string> known);
-
-/// Returns "; perhaps WORD is meant", or nothing where no known word is near.
-std::string did_you_mean(std::string_view word, std::span<const std::string> known);
 
 /// What a command line asks for, ready to be done: the command that it names, with its options read already, or help.
 /// `arguments` begin with the program's own name, as in main(). Throws Error with one line for a wrong command line.

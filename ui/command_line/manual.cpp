@@ -90,8 +90,8 @@ void add_case(const Command& command, const std::string& before, std::string& te
     for (const Command& each : command.commands) { add_case(each, name, text); }
 }
 
-} // namespace
-
+/// The program's manual as a page of section 1 in man's macros: every command with its options, their units and
+/// defaults, and its examples.
 std::string man_page(const Program& program) {
     std::string title = program.name;
     std::ranges::transform(title, title.begin(), [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
@@ -108,6 +108,8 @@ std::string man_page(const Program& program) {
     return page;
 }
 
+/// What completes command lines in bash, zsh too (by its bashcompinit): commands and options; files for everything
+/// else.
 std::string bash_completion(const Program& program) {
     std::string function = "_" + program.name;
     std::ranges::replace(function, '-', '_');
@@ -170,6 +172,8 @@ std::string zsh_completion(const Program& program) {
     return fmt::format("#compdef {}\nautoload -U +X bashcompinit && bashcompinit\n", program.name) +
            bash_completion(program);
 }
+
+} // namespace
 
 Command manual_command(const Program& program) {
     auto form = std::make_shared<std::string>("man");

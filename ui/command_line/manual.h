@@ -2,20 +2,10 @@
 
 #include "ui/command_line/command.h"
 
-#include <string>
-
 namespace octant::ui::command_line {
 
-/// The program's manual as a page of section 1 in man's macros: every command with its options, their units and
-/// defaults, and its examples.
-std::string man_page(const Program& program);
-
-/// What completes command lines in bash, zsh too (by its bashcompinit): commands and options; files for everything
-/// else.
-std::string bash_completion(const Program& program);
-std::string zsh_completion(const Program& program);
-
-/// The command "manual": prints these for the other commands of `program`.
+/// The command "manual": prints the manual page of `program`, or a script that completes its command lines in bash or
+/// zsh.
 Command manual_command(const Program& program);
 
 } // namespace octant::ui::command_line

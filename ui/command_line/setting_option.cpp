@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
@@ -111,14 +112,16 @@ void join_families(std::vector<Option>& table, std::vector<Option> options) {
 
 void add_setting_options(std::vector<Option>& table, RunSettings& settings, std::vector<std::string>* given,
     std::span<const std::string_view> without) {
+    const auto notes = std::make_shared<std::vector<std::string>>();
     table.push_back({.name = "--settings",
         .form = "FILE",
         .meaning = "read settings from a file or a recording; other options override them",
         .read =
-            [&settings, given](const Words& words) {
-                settings = settings::read_settings(words.front());
+            [&settings, given, notes](const Words& words) {
+                settings = settings::read_settings(words.front(), notes.get());
                 if (given != nullptr) { given->emplace_back("--settings"); }
-            }});
+            },
+        .note = [notes](const Words&) { return fmt::format("{}", fmt::join(*notes, "; ")); }});
     std::vector<Option> options;
     const auto is_left_out = [&](std::string_view name) { return std::ranges::find(without, name) != without.end(); };
     settings::visit_settings(settings, [&](const SettingInfo& info, auto& value) {
@@ -139,6 +142,24 @@ void add_setting_options(std::vector<Option>& table, RunSettings& settings, std:
     });
     if (given != nullptr) { record_given_options(options, *given); }
     join_families(table, std::move(options));
+}
+
+void add_eye_options(std::vector<Option>& table, std::string_view frame, settings::EyeView& view) {
+    constexpr double far_m = 1e9;
+    Option eye = value_option({"eye", "X,Y,Z", "", -far_m, far_m}, view.eye_m);
+    eye.meaning = fmt::format("eye point {}", frame);
+    table.insert(table.end(),
+        {std::move(eye),
+            value_option({"look", "X,Y,Z", "point shown in the middle of the picture, in the same frame as --eye",
+                             -far_m, far_m},
+                view.look_m),
+            value_option({"size", "WIDTHxHEIGHT", "picture size in pixels", 16, 16384}, view.size_px),
+            value_option({"fov", "DEGREES", "vertical field of view", 0.1, 170.0}, view.fov_deg)});
+}
+
+Option threads_option(int& threads) {
+    return value_option(
+        {"threads", "N", "number of threads; the result does not depend on it [all processors]", 1, 1024}, threads);
 }
 
 namespace {

@@ -66,7 +66,7 @@ private:
 
 constexpr int default_rays = 200000; ///< of a check
 
-struct DrawOrderOptions {
+struct DrawOrderOptions : base::OutputOptions {
     std::string model;
     std::string axes = "right,up,back";
     std::string method = "exact"; ///< one of method_names
@@ -81,8 +81,6 @@ struct DrawOrderOptions {
     bool check = false;
     std::string check_file;  ///< the order to check; empty: the one that was computed
     std::optional<int> rays; ///< how many the order is tried by; 0: no trial
-    bool json = false;
-    bool quiet = false;
 };
 
 /// cells and bsp are those of the studies (visuals/orderstudy).
@@ -98,12 +96,15 @@ Option method_option(std::string& method) {
             [&method](const Words& words) {
                 const settings::FieldInfo info{.name = "--method", .form = "KIND", .meaning = ""};
                 const std::size_t choice = settings::read_choice(info, words.front(), method_names);
-                if (choice == old_name_of_exact) {
-                    settings::print_old_name_note(info, words.front(), "the old name of exact");
-                }
                 method = choice == old_name_of_exact ? "exact" : method_names[choice];
             },
-        .shown_default = method};
+        .shown_default = method,
+        .note =
+            [](const Words& words) {
+                return words.front() == method_names[old_name_of_exact]
+                           ? settings::old_name_note("--method", words.front(), "the old name of exact")
+                           : std::string();
+            }};
 }
 
 /// Throws Error where one file would be written over another, or over the model.
@@ -181,8 +182,8 @@ void add_result_options(std::vector<Option>& table, DrawOrderOptions& options) {
                     }},
             with_shown_default(fmt::format("{}", default_rays),
                 value_option(
-                    {"rays", "N", "number of test rays, also without --check; 0 = none", 0, 1e9}, options.rays)),
-            json_option(options.json), quiet_option(options.quiet)});
+                    {"rays", "N", "number of test rays, also without --check; 0 = none", 0, 1e9}, options.rays))});
+    table = with_output_options(options, std::move(table));
 }
 
 void add_draw_order_options(std::vector<Option>& table, DrawOrderOptions& options) {

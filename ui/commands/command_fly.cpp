@@ -4,30 +4,27 @@
 #include "ui/base/stop_signals.h"
 #include "ui/command_line/setting_option.h"
 #include "ui/commands/commands.h"
-#include "ui/commands/flight_summary.h"
+#include "ui/flight/flight_loop.h"
 #include "ui/flight/flight_recorder.h"
 #include "ui/flight/packet_replay.h"
 #include "ui/flight/sender.h"
 #include "ui/flight/session.h"
 #include "ui/report/packed_recording.h"
 #include "ui/report/video_pipe.h"
-#include "ui/settings/frame_part.h"
 #include "ui/settings/settings_file.h"
 #include "ui/world/input_files.h"
 #include "ui/world/world.h"
 
 #include <algorithm>
 #include <array>
-#include <chrono>
-#include <cstdio>
 #include <filesystem>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <memory>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
-#include <thread>
 
 namespace octant::ui::commands {
 
@@ -37,22 +34,14 @@ namespace scene = visuals::scene;
 
 namespace {
 
-struct FlyOptions {
+struct FlyOptions : base::OutputOptions {
     settings::RunSettings settings;
     flight::RecordOptions record;
     std::optional<flight::Replay> replay;
     std::vector<std::string> send;  ///< to whom
     std::vector<std::string> given; ///< names of the setting options on the command line
-    bool json = false;
-    bool quiet = false;
     bool if_new = false;
 };
-
-/// Waits until the wall clock reaches the frame's simulated time.
-void wait_for(const base::Stopwatch& since_start, double time_s) {
-    const double left_s = time_s - since_start.s();
-    if (left_s > 0.0) { std::this_thread::sleep_for(std::chrono::duration<double>(left_s)); }
-}
 
 /// Throws Error when the command line sets anything beside --replay that could change pictures.
 void check_no_settings_with_replay(const FlyOptions& options) {
@@ -90,38 +79,6 @@ void start_replay(const flight::Replay& replay, flight::Session& session, bool q
                                     replay.quality_targets.size(), session.frames()));
     }
     session.replay(replay.quality_targets);
-}
-
-/// Every frame of the session, recorded, until a signal comes. What ended the flight before its last frame, empty =
-/// nothing did.
-std::string fly_frames(
-    const FlyOptions& options, flight::Session& session, flight::Sender& sender, flight::FlightRecorder& recorder) {
-    const std::optional<std::string>& part = options.settings.time.part;
-    const int first = part ? session.begin_frame_range(*settings::part_from_text(*part)).first : 0;
-    const int count = session.frames() - first;
-    base::Progress progress(session.world().flight.title, count, options.quiet);
-    for (const std::string& line : sender.wait_for_channels(session)) { base::print_note(false, line); }
-    const base::Stopwatch since_start;
-    int frame = first;
-    for (; frame < session.frames() && !(base::StopSignals::received() && frame > first); ++frame) {
-        const double due_s = (frame - first) / session.rate_hz();
-        if (options.settings.time.realtime) { wait_for(since_start, due_s); }
-        report::FrameRecord record = session.draw(frame);
-        if (options.settings.time.realtime) {
-            const double late_s = since_start.s() - due_s;
-            record.latency_ms = 1000.0 * late_s;
-            record.missed = late_s > 1.0 / session.rate_hz() ? 1 : 0;
-        }
-        sender.send(session);
-        record.skew_frames = sender.wait_for_pictures();
-        recorder.add(record, session);
-        progress.show(frame + 1 - first, fmt::format("{:.1f} ms", record.frame_ms));
-    }
-    progress.finish();
-    for (const std::string& line : sender.channel_lines()) { base::print_note(false, line); }
-    return frame == session.frames()
-               ? std::string()
-               : fmt::format("{} after {} of {} frames", base::StopSignals::name(), frame - first, count);
 }
 
 /// What the automatic share of smooth polygons came to.
@@ -162,7 +119,7 @@ void fly(FlyOptions options) {
         packets = flight::replay_packets(*options.replay, session, recorder, options.quiet);
         stopped = packets.stopped;
     } else {
-        stopped = fly_frames(options, session, sender, recorder);
+        stopped = flight::fly_frames(options.settings.time, options.quiet, session, sender, recorder);
     }
     if (!stopped.empty()) { base::print_note(options.quiet, fmt::format("note: ended by {}", stopped)); }
     const flight::FlightResult end = recorder.finish(session, stopped);
@@ -178,39 +135,40 @@ void fly(FlyOptions options) {
     if (options.replay && stopped.empty()) {
         verdict = flight::compare_with_recording(*options.replay, end.state_hash, end.picture_hash);
     }
-    print_summary(end, verdict, options.json);
+    flight::print_result(end, verdict, options.json);
     if (!end.fault.empty()) { throw Error(end.fault); }
     if (verdict && !verdict->is_same) { throw CheckFailed(); }
 }
 
 std::vector<Option> options_of(FlyOptions& options) {
-    std::vector<Option> table = {
-        text_option("--record", "DIR", "folder for the recording and its report", options.record.folder),
-        text_option("--video", "FILE.mp4", "write a video (needs ffmpeg)", options.record.video),
-        {.name = "--replay",
-            .form = "DIR",
-            .meaning =
-                "repeat a recording frame by frame and check that states and pictures are identical; exit code 1 "
-                "if not",
-            .read =
-                [&options](const Words& words) {
-                    const std::filesystem::path folder = report::recording_folder(words.front());
-                    options.replay = flight::read_replay(folder);
-                    options.record.replay_of = folder;
-                    options.settings = settings::read_settings(folder / "run.json");
-                }},
-        advanced(list_option("--send", "PROTOCOL:HOST:PORT",
-            "send the aircraft of each frame to another program, in real time; repeatable\n"
-            "fdm: the first aircraft as FlightGear native FDM; xplane: as X-Plane DATA\n"
-            "dis: all aircraft as DIS entity states; tacview:PORT: serve Tacview real-time telemetry\n"
-            "cigi:HOST:PORT[:OWN]: all aircraft and the camera to a CIGI image generator that answers to port OWN "
-            "[8005]; each frame waits for its picture, so that several generators show the same frame",
-            Arity::Repeatable, options.send)),
-        hidden(text_option("--swept", "HOW", "internal: how octant sweep shares the machine, for the report",
-            options.record.batch_context)),
-        advanced(flag(
-            "--if-new", "skip the flight if DIR already contains a recording of exactly this run", options.if_new)),
-        json_option(options.json), quiet_option(options.quiet)};
+    const auto replay_notes = std::make_shared<std::vector<std::string>>();
+    std::vector<Option> table = with_output_options(options,
+        {text_option("--record", "DIR", "folder for the recording and its report", options.record.folder),
+            text_option("--video", "FILE.mp4", "write a video (needs ffmpeg)", options.record.video),
+            {.name = "--replay",
+                .form = "DIR",
+                .meaning =
+                    "repeat a recording frame by frame and check that states and pictures are identical; exit code 1 "
+                    "if not",
+                .read =
+                    [&options, replay_notes](const Words& words) {
+                        const std::filesystem::path folder = report::recording_folder(words.front());
+                        options.replay = flight::read_replay(folder);
+                        options.record.replay_of = folder;
+                        options.settings = settings::read_settings(folder / "run.json", replay_notes.get());
+                    },
+                .note = [replay_notes](const Words&) { return fmt::format("{}", fmt::join(*replay_notes, "; ")); }},
+            advanced(list_option("--send", "PROTOCOL:HOST:PORT",
+                "send the aircraft of each frame to another program, in real time; repeatable\n"
+                "fdm: the first aircraft as FlightGear native FDM; xplane: as X-Plane DATA\n"
+                "dis: all aircraft as DIS entity states; tacview:PORT: serve Tacview real-time telemetry\n"
+                "cigi:HOST:PORT[:OWN]: all aircraft and the camera to a CIGI image generator that answers to port OWN "
+                "[8005]; each frame waits for its picture, so that several generators show the same frame",
+                Arity::Repeatable, options.send)),
+            hidden(text_option("--machine-sharing,--swept", "HOW",
+                "internal: how octant sweep shares the machine, for the report", options.record.machine_sharing)),
+            advanced(flag("--if-new", "skip the flight if DIR already contains a recording of exactly this run",
+                options.if_new))});
     add_setting_options(table, options.settings, &options.given);
     return table;
 }

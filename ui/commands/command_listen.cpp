@@ -1,11 +1,11 @@
 #include "sim/base/error.h"
+#include "sim/base/output_file.h"
 #include "ui/base/data_files.h"
 #include "ui/base/progress.h"
 #include "ui/base/stop_signals.h"
 #include "ui/command_line/setting_option.h"
 #include "ui/commands/commands.h"
-#include "ui/commands/flight_summary.h"
-#include "ui/commands/window_options.h"
+#include "ui/flight/flight_loop.h"
 #include "ui/flight/flight_recorder.h"
 #include "ui/flight/listener.h"
 #include "ui/flight/sender.h"
@@ -37,7 +37,7 @@ using namespace command_line;
 
 namespace {
 
-struct ListenOptions {
+struct ListenOptions : base::OutputOptions {
     settings::RunSettings settings;
     flight::ListenerOptions listener;
     std::optional<int> vehicles;         ///< number shown, at least as many as there are aircraft; nothing = 16
@@ -46,8 +46,6 @@ struct ListenOptions {
     flight::RecordOptions record;
     window::ViewOptions window;
     bool headless = false;
-    bool json = false;
-    bool quiet = false;
 };
 
 /// Settings of a path that the program flies itself.
@@ -55,9 +53,8 @@ constexpr std::array<std::string_view, 9> path_only_settings{
     "path", "heading", "height-mode", "lenient", "start", "frame-per-sample", "realtime", "mesh-ahead", "path-ribbon"};
 
 /// Options that only --help-all shows.
-constexpr std::array<std::string_view, 14> rarely_used{"--window", "--xplane", "--step", "--entities", "--vehicles",
-    "--channel", "--frames", "--adapt", "--shading", "--triangles", "--error-px", "--place", "--renderer",
-    "--terrain-lod"};
+constexpr std::array<std::string_view, 12> rarely_used{"--xplane", "--step", "--vehicles", "--channel", "--frames",
+    "--adapt", "--shading", "--triangles", "--error-px", "--place", "--renderer", "--terrain-lod"};
 
 /// UDP and TCP ports, the address to listen on and hosts to contact.
 void add_port_options(std::vector<Option>& table, flight::LiveInputOptions& input) {
@@ -128,16 +125,23 @@ Option channel_option(flight::ListenerOptions& listener) {
     return option;
 }
 
+void read_vehicles(const std::string& word, ListenOptions& options) {
+    if (is_file(word)) {
+        options.entities = word;
+    } else {
+        settings::read_setting({"--vehicles", "", "", 1, 256}, word, options.vehicles);
+    }
+}
+
 /// What is shown of what comes.
 std::vector<Option> view_options(ListenOptions& options) {
-    return {value_option({"vehicles", "N",
-                             "largest number of vehicles shown [16]; vehicles beyond the --aircraft options look like "
-                             "the last of them",
-                             1, 256},
-                options.vehicles),
-        text_option("--entities", "FILE.toml",
-            "aircraft of CIGI entity types: tables [[entity]] with type, aircraft and count; replaces --aircraft",
-            options.entities),
+    return {{.name = "--vehicles",
+                .form = "N|FILE.toml",
+                .meaning = "largest number of vehicles shown [16], of which those beyond the --aircraft options look "
+                           "like the last of them; or the aircraft of CIGI entity types: a file of tables [[entity]] "
+                           "with type, aircraft and count, which replaces --aircraft",
+                .read = [&options](const Words& words) { read_vehicles(words.front(), options); }},
+        old_name(text_option("--entities", "FILE.toml", "", options.entities), "--vehicles FILE.toml"),
         value_option(
             {"delay", "S",
                 "display delay in seconds: 0 extrapolates by velocity, larger values interpolate between packets", 0.0,
@@ -152,12 +156,12 @@ void append(std::vector<Option>& table, std::vector<Option> more) {
 std::vector<Option> options_of(ListenOptions& options) {
     options.settings.path.name = settings::live_path;
     flight::ListenerOptions& listener = options.listener;
-    std::vector<Option> table = {flag("--headless", "no window: only pictures, video and recording", options.headless),
-        text_option("--record", "DIR", "folder for the recording and its report; in a window until F9 ends it",
-            options.record.folder),
-        text_option("--video", "FILE.mp4", "with --headless: write a video (needs ffmpeg)", options.record.video),
-        json_option(options.json), quiet_option(options.quiet)};
-    add_window_options(table, options.window, nullptr);
+    std::vector<Option> table = with_output_options(options,
+        {flag("--headless", "no window: only pictures, video and recording", options.headless),
+            text_option("--record", "DIR", "folder for the recording and its report; in a window until F9 ends it",
+                options.record.folder),
+            text_option("--video", "FILE.mp4", "with --headless: write a video (needs ffmpeg)", options.record.video)});
+    add_window_options(table, options.window);
     add_port_options(table, listener.input);
     add_cigi_options(table, listener);
     table.push_back(from_option(listener.input));
@@ -298,7 +302,7 @@ void listen_without_window(const ListenOptions& options) {
     if (const long untold = run.traffic().counts().untold; untold > 0) {
         base::print_note(options.quiet, fmt::format("note: {} packets more, of too many kinds to tell each", untold));
     }
-    print_summary(end, std::nullopt, options.json, results_of_run(run.traffic()));
+    flight::print_result(end, std::nullopt, options.json, results_of_run(run.traffic()));
     if (!end.fault.empty()) { throw Error(end.fault); }
 }
 
@@ -314,7 +318,7 @@ void listen_in_window(ListenOptions options) {
     options.window.record = options.record.folder;
     options.window.quiet = options.quiet;
     window::Viewer viewer(options.window);
-    run_viewer(viewer, options.settings.time.frames, options.quiet);
+    viewer.run(options.settings.time.frames, options.quiet);
 }
 
 void listen(ListenOptions options) {

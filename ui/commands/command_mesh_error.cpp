@@ -25,14 +25,12 @@ namespace {
 
 using base::JsonValue;
 
-struct MeshErrorOptions {
+struct MeshErrorOptions : base::OutputOptions {
     std::string a;
     std::string b;
     double tightness = 1.01;
     int samples = 400'000;
     int threads = core_count();
-    bool json = false;
-    bool quiet = false;
 };
 
 /// What was found; lengths in the units of the files.
@@ -200,19 +198,18 @@ constexpr const char* footer =
     "  octant mesh-error bunny.ply bunny-1000.ply --json";
 
 std::vector<Option> options_of(MeshErrorOptions& options) {
-    return {
-        required(text_option("A", "MESH",
-            "the original: " + world::built_in_mesh_names() + " or a file (.obj, .ply, .stl, .gltf, .glb, .ac, .wrl)",
-            options.a)),
-        required(text_option("B", "MESH", "mesh to compare with A", options.b)),
-        hidden(value_option(
-            {"tightness", "RATIO", "largest allowed ratio of the upper to the lower bound of the Hausdorff distance",
-                1.000001, 100},
-            options.tightness)),
-        value_option(
-            {"samples", "N", "number of sample points in each direction, for rms and mean", 1, 1e9}, options.samples),
-        value_option({"threads", "N", "number of threads [all processors]", 1, 256}, options.threads),
-        json_option(options.json), quiet_option(options.quiet)};
+    return with_output_options(options,
+        {required(text_option("A", "MESH",
+             "the original: " + world::built_in_mesh_names() + " or a file (.obj, .ply, .stl, .gltf, .glb, .ac, .wrl)",
+             options.a)),
+            required(text_option("B", "MESH", "mesh to compare with A", options.b)),
+            hidden(value_option(
+                {"tightness", "RATIO",
+                    "largest allowed ratio of the upper to the lower bound of the Hausdorff distance", 1.000001, 100},
+                options.tightness)),
+            value_option({"samples", "N", "number of sample points in each direction, for rms and mean", 1, 1e9},
+                options.samples),
+            threads_option(options.threads)});
 }
 
 } // namespace

@@ -172,12 +172,10 @@ report::Picture three_views(const models::TriangleMesh& body, int pane_width_px,
     return picture;
 }
 
-struct ModelInfoOptions {
+struct ModelInfoOptions : base::OutputOptions {
     std::string file;
     std::string axes = "auto";
     std::string picture;
-    bool json = false;
-    bool quiet = false;
 };
 
 models::TriangleMesh read_any_mesh(const std::string& file) {
@@ -268,13 +266,14 @@ Command model_info_command() {
     auto options = std::make_shared<ModelInfoOptions>();
     return {.name = "info",
         .summary = "Shows size, axes, surface defects and materials of a mesh, and draws three views of it",
-        .options = {required(text_option("file", "FILE",
-                        "a mesh (.obj, .ply, .stl, .gltf, .glb, .ac, .wrl, .chain) or a built-in name", options->file)),
-            text_option("--picture", "OUT.png",
-                "write a picture with views from the left, above and ahead; the nose points left", options->picture),
-            text_option("--axes", "X,Y,Z|auto",
-                "directions of the file's x, y and z axes: right, left, up, down, forward, back", options->axes),
-            json_option(options->json), quiet_option(options->quiet)},
+        .options = with_output_options(*options,
+            {required(text_option("file", "FILE",
+                 "a mesh (.obj, .ply, .stl, .gltf, .glb, .ac, .wrl, .chain) or a built-in name", options->file)),
+                text_option("--picture", "OUT.png",
+                    "write a picture with views from the left, above and ahead; the nose points left",
+                    options->picture),
+                text_option("--axes", "X,Y,Z|auto",
+                    "directions of the file's x, y and z axes: right, left, up, down, forward, back", options->axes)}),
         .footer = "Keys: file, length_m, span_m, height_m, scale, axes, axes_are, faces and "
                   "vertices as read,\n  shells, closed and defects as repaired, materials "
                   "(red green blue) and how often, vertex_colours, picture.\n"

@@ -34,17 +34,13 @@ namespace {
 
 using base::JsonValue;
 
-struct RefineOptions {
+struct RefineOptions : base::OutputOptions, settings::EyeView {
     world::RefineMeshOptions input;
     int base = 0;
     int vertices = 0; ///< 0: all
     std::string save;
     std::vector<refine::Sphere> regions;
     double error_px = 0.0; ///< 0: no view
-    std::optional<glm::dvec3> eye_m;
-    std::optional<glm::dvec3> look_m;
-    double fov_deg = 50.0;
-    glm::ivec2 size_px{1280, 720};
     std::string rule = "selective";
     bool no_repair = false;
     std::string out;
@@ -118,18 +114,18 @@ void write_results(const refine::SelectiveRefiner& refiner, const RefineOptions&
         models::meshfile::write_mesh(
             options.partition, visuals::refine::partition_mesh(refiner,
                                    by_level ? visuals::refine::ColourBy::Level : visuals::refine::ColourBy::Region));
-        base::print_note(options.input.quiet, "partition: " + options.partition);
+        base::print_note(options.quiet, "partition: " + options.partition);
     }
     if (options.out.empty() && options.nodes.empty()) { return; }
     refine::ActiveMesh active = refine::active_mesh(refiner);
     if (has_material_colours) { active.mesh.colours.clear(); }
     if (!options.out.empty()) {
         models::meshfile::write_mesh(options.out, visuals::refine::coloured_mesh(active, colour_by(options)));
-        base::print_note(options.input.quiet, "active mesh: " + options.out);
+        base::print_note(options.quiet, "active mesh: " + options.out);
     }
     if (!options.nodes.empty()) {
         write_file(options.nodes, nodes_text(active));
-        base::print_note(options.input.quiet, "active nodes: " + options.nodes);
+        base::print_note(options.quiet, "active nodes: " + options.nodes);
     }
 }
 
@@ -159,6 +155,7 @@ void check_mesh_name(const char* option, const std::string& file) {
 }
 
 void refine_mesh(RefineOptions options) {
+    options.input.quiet = options.quiet;
     options.input.base = static_cast<std::size_t>(options.base);
     if (options.vertices > 0) { options.input.max_vertices = static_cast<std::size_t>(options.vertices); }
     if ((options.error_px > 0.0) != options.eye_m.has_value() ||
@@ -170,7 +167,7 @@ void refine_mesh(RefineOptions options) {
     std::optional<refine::RefineView> view;
     if (options.error_px > 0.0) { view = view_of(options); }
     check_mesh_name("--out", options.out);
-    check_mesh_name("--out-partition", options.partition);
+    check_mesh_name("--colours partition", options.partition);
     if (!options.save.empty() && !refine::is_progressive_file(options.save)) {
         throw Error(fmt::format("--save: expected a file name that ends in .pm, got '{}'", printable(options.save)));
     }
@@ -189,7 +186,7 @@ void refine_mesh(RefineOptions options) {
     results["load_ms"] = watch.ms();
     if (!options.save.empty()) {
         refine::write_progressive(options.save, *mesh);
-        base::print_note(options.input.quiet, "progressive mesh: " + options.save);
+        base::print_note(options.quiet, "progressive mesh: " + options.save);
     }
     results["rule"] = options.rule;
     refine::SelectiveRefiner refiner(mesh,
@@ -200,11 +197,10 @@ void refine_mesh(RefineOptions options) {
 }
 
 std::vector<Option> model_options(RefineOptions& options) {
-    constexpr double far_m = 1e9;
-    return {required(text_option("in", "MESH|FILE.pm",
-                "a mesh: " + world::built_in_mesh_names() +
-                    " or a file (.obj, .ply, .stl, .gltf, .glb, .ac, .wrl); or a progressive mesh",
-                options.input.file)),
+    std::vector<Option> table{required(text_option("in", "MESH|FILE.pm",
+                                  "a mesh: " + world::built_in_mesh_names() +
+                                      " or a file (.obj, .ply, .stl, .gltf, .glb, .ac, .wrl); or a progressive mesh",
+                                  options.input.file)),
         value_option(
             {"base", "N", "meshes: number of vertices of the base mesh [as few as possible]", 0, 1e9}, options.base),
         value_option(
@@ -216,12 +212,9 @@ std::vector<Option> model_options(RefineOptions& options) {
             .read = [&options](const Words& words) { options.regions = regions_from(words); },
             .words_per_use = static_cast<int>(region_words)},
         value_option({"error-px", "PIXELS", "refine until the error seen from --eye is at most this [off]", 0.0, 1e6},
-            options.error_px),
-        value_option({"eye", "X,Y,Z", "eye point in file axes", -far_m, far_m}, options.eye_m),
-        value_option(
-            {"look", "X,Y,Z", "point shown in the middle of the picture, in file axes", -far_m, far_m}, options.look_m),
-        value_option({"fov", "DEGREES", "vertical field of view", 1.0, 170.0}, options.fov_deg),
-        value_option({"size", "WIDTHxHEIGHT", "picture size in pixels", 16, 8192}, options.size_px)};
+            options.error_px)};
+    add_eye_options(table, "in file axes", options);
+    return table;
 }
 
 void add_method_options(std::vector<Option>& table, RefineOptions& options) {
@@ -233,8 +226,7 @@ void add_method_options(std::vector<Option>& table, RefineOptions& options) {
                          flag("--no-repair", "do not repair flipped faces", options.no_repair),
                          text_option("--save", "FILE.pm", "output file of the progressive mesh", options.save),
                          text_option("--out", "FILE", "output file of the active mesh", options.out),
-                         text_option("--nodes", "FILE", "output file of the list of active nodes", options.nodes),
-                         json_option(options.json), quiet_option(options.input.quiet)});
+                         text_option("--nodes", "FILE", "output file of the list of active nodes", options.nodes)});
     add_family(table, {.name = "--colours", .form = "KEY=VALUE,...", .meaning = "pictures of the active vertices:"},
         {{"by", choice_option("--colour-by", "WHAT",
                     "vertex colours of --out: region (one colour per active vertex) or level (by the number of "
@@ -242,12 +234,14 @@ void add_method_options(std::vector<Option>& table, RefineOptions& options) {
                     {"none", "region", "level"}, options.colour_by)},
             {"partition", text_option("--out-partition", "FILE",
                               "output file of the original mesh, coloured by active vertex", options.partition)}});
+    table = with_output_options(options, std::move(table));
 }
 
 } // namespace
 
 Command refine_command() {
     auto options = std::make_shared<RefineOptions>();
+    options->fov_deg = 50.0;
     Command command = {.name = "refine",
         .summary = "Makes progressive meshes and refines them where it is asked for",
         .options = model_options(*options),

@@ -24,12 +24,10 @@ using namespace command_line;
 
 namespace {
 
-struct ReportOptions {
+struct ReportOptions : base::OutputOptions {
     std::vector<std::string> folders;
     std::string out;
     std::string gate;
-    bool json = false;
-    bool quiet = false;
 };
 
 base::JsonValue results_of_run(const report::LoadedRecording& recording) {
@@ -88,16 +86,15 @@ Command report_command() {
     auto options = std::make_shared<ReportOptions>();
     return {.name = "report",
         .summary = "Writes report.html from one recording, or compares several side by side",
-        .options = {required(list_option("folders", "DIR...",
-                        "folders of recordings or packed recordings; recordings of killed flights work too",
-                        Arity::OneOrMore, options->folders)),
-            with_shown_default(
-                "report.html in the first folder", text_option("--out", "FILE.html", "page to write", options->out)),
-            text_option("--gate", "FIGURE=N%,...",
-                "exit code 1 when a statistic of a recording exceeds that of the first recording by more than N %",
-                options->gate),
-            flag("--json", "print the statistics of each recording as JSON", options->json),
-            quiet_option(options->quiet)},
+        .options = with_output_options(*options,
+            {required(list_option("folders", "DIR...",
+                 "folders of recordings or packed recordings; recordings of killed flights work too", Arity::OneOrMore,
+                 options->folders)),
+                with_shown_default("report.html in the first folder",
+                    text_option("--out", "FILE.html", "page to write", options->out)),
+                text_option("--gate", "FIGURE=N%,...",
+                    "exit code 1 when a statistic of a recording exceeds that of the first recording by more than N %",
+                    options->gate)}),
         .footer = "Exit code 1 where a recording's rows are not those of its summary; the page is "
                   "written and says so.\n"
                   "Examples:\n"
@@ -109,12 +106,10 @@ Command report_command() {
 
 namespace {
 
-struct PackOptions {
+struct PackOptions : base::OutputOptions {
     std::filesystem::path folder;
     std::optional<std::filesystem::path> out;
     bool with_terrain = false;
-    bool json = false;
-    bool quiet = false;
 };
 
 void pack(const PackOptions& options) {
@@ -137,10 +132,10 @@ Command pack_command() {
     auto options = std::make_shared<PackOptions>();
     return {.name = "pack",
         .summary = "Packs a recording into one file that can be reported and replayed on any machine",
-        .options = {required(text_option("folder", "DIR", "folder of the recording", options->folder)),
-            with_shown_default("DIR.zip", text_option("--out", "FILE.zip", "the file", options->out)),
-            flag("--with-terrain", "include the terrain file", options->with_terrain), json_option(options->json),
-            quiet_option(options->quiet)},
+        .options = with_output_options(
+            *options, {required(text_option("folder", "DIR", "folder of the recording", options->folder)),
+                          with_shown_default("DIR.zip", text_option("--out", "FILE.zip", "the file", options->out)),
+                          flag("--with-terrain", "include the terrain file", options->with_terrain)}),
         .footer = "Examples:\n"
                   "  octant pack my-flight --out my-flight.zip\n"
                   "On any machine then: octant report my-flight.zip --out page.html; and octant fly\n"

@@ -289,18 +289,16 @@ void add_work_options(std::vector<Option>& table, SimplifyArguments& command) {
                 "surface (--effort 4) or fast (--effort 1); as printed in the 2005 paper: plane, "
                 "triangle or bidirectional [surface]",
                 {"surface", "fast", "plane", "triangle", "bidirectional"}, command.method),
-            value_option(
-                {"threads", "N", "number of threads; the result does not depend on it [all processors]", 1, 1024},
-                command.threads)});
+            threads_option(command.threads)});
     add_group(table, "Output",
-        {text_option("--chart", "FILE.html",
-             "write a page that plots error against number of faces for a series of levels, with the command that "
-             "makes each level",
-             command.chart),
-            flag("--chain", "write levels of detail, each with half the triangles, to OUT.chain", command.chain),
-            text_option("--polygons", "FILE.obj", "with --chain: polygon model to use instead of the last level",
-                command.polygons),
-            json_option(command.json), quiet_option(command.quiet)});
+        with_output_options(command,
+            {text_option("--chart", "FILE.html",
+                 "write a page that plots error against number of faces for a series of levels, with the command that "
+                 "makes each level",
+                 command.chart),
+                flag("--chain", "write levels of detail, each with half the triangles, to OUT.chain", command.chain),
+                text_option("--polygons", "FILE.obj", "with --chain: polygon model to use instead of the last level",
+                    command.polygons)}));
 }
 
 constexpr const char* simplify_footer =

@@ -33,7 +33,7 @@ using namespace command_line;
 namespace {
 
 /// What a sweep is asked for.
-struct SweepOptions {
+struct SweepOptions : base::OutputOptions {
     std::filesystem::path file;
     std::optional<std::filesystem::path> out;
     std::string on = "local";
@@ -46,7 +46,6 @@ struct SweepOptions {
     std::optional<int> minutes;
     int retries = 1;
     bool list = false;
-    bool json = false;
 };
 
 /// What came of a sweep's runs, and how they shared machines.
@@ -55,14 +54,21 @@ struct SweepResults {
     std::string machine_sharing;
 };
 
-/// Numbers of the runs that are not done.
-std::vector<std::size_t> unfinished_runs(const std::vector<sweep::RunResult>& results);
-
 namespace fs = std::filesystem;
+
+/// Numbers of the runs that are not done.
+std::vector<std::size_t> unfinished_runs(const std::vector<sweep::RunResult>& results) {
+    std::vector<std::size_t> runs;
+    for (std::size_t i = 0; i < results.size(); ++i) {
+        if (!results[i].done) { runs.push_back(i); }
+    }
+    return runs;
+}
 
 std::unique_ptr<sweep::Engine> engine_of(
     const SweepOptions& options, const sweep::Sweep& sweep, const sweep::SweepFolder& folder) {
     sweep::EngineOptions engine = options.engine;
+    engine.quiet = options.quiet;
     engine.jobs = options.jobs.value_or(0);
     engine.tasks = options.tasks.value_or(0);
     engine.minutes = options.minutes.value_or(engine.minutes);
@@ -83,7 +89,7 @@ std::vector<sweep::RunResult> results_of(
 /// Has flown what is not done yet, and tries again what failed. What came of all runs.
 std::vector<sweep::RunResult> fly_all(
     const SweepOptions& options, const sweep::Sweep& sweep, const sweep::SweepFolder& folder, sweep::Engine& engine) {
-    const bool quiet = options.engine.quiet;
+    const bool quiet = options.quiet;
     std::vector<sweep::RunResult> results = results_of(sweep, folder, options.engine.videos);
     const std::size_t done_before = results.size() - unfinished_runs(results).size();
     if (done_before > 0) { base::print_note(quiet, fmt::format("flights that are done already: {}", done_before)); }
@@ -141,14 +147,6 @@ SweepResults fly_in_parts(const SweepOptions& options, const sweep::Sweep& sweep
     return {std::move(results), fmt::format("each in {} parts, {}", *options.split, engine->machine_sharing())};
 }
 
-std::vector<std::size_t> unfinished_runs(const std::vector<sweep::RunResult>& results) {
-    std::vector<std::size_t> runs;
-    for (std::size_t i = 0; i < results.size(); ++i) {
-        if (!results[i].done) { runs.push_back(i); }
-    }
-    return runs;
-}
-
 /// Has an engine fly what is not done yet, in parts where that is asked for, and tries again what failed. Throws Error
 /// when the engine itself fails.
 SweepResults fly_unfinished_runs(
@@ -158,8 +156,6 @@ SweepResults fly_unfinished_runs(
     std::vector<sweep::RunResult> results = fly_all(options, sweep, folder, *engine);
     return {std::move(results), engine->machine_sharing()};
 }
-
-namespace fs = std::filesystem;
 
 void print_list(const sweep::Sweep& sweep, bool json) {
     if (json) {
@@ -240,6 +236,7 @@ void check_engine(const SweepOptions& options) {
 void run_sweep(const SweepOptions& options) {
     check_engine(options);
     const sweep::Sweep sweep = sweep::read_sweep(options.file);
+    for (const std::string& note : sweep.notes) { base::print_note(options.quiet, "note: " + note); }
     if (options.list) {
         print_list(sweep, options.json);
         return;
@@ -247,7 +244,6 @@ void run_sweep(const SweepOptions& options) {
     if (options.split) { // before anything is written
         sweep::split_sweep(sweep, *options.split, options.engine.videos);
     }
-    const bool quiet = options.engine.quiet;
     const sweep::SweepFolder folder(fs::absolute(options.out.value_or(sweep.name)).lexically_normal());
     folder.prepare(sweep);
     if (options.engine.videos) {
@@ -259,36 +255,35 @@ void run_sweep(const SweepOptions& options) {
     const std::vector<std::string> hash_mismatches = sweep::hash_mismatches(sweep, flown.results);
     write_results(sweep, folder, flown.results, hash_mismatches);
     print_end(sweep, flown.results, hash_mismatches, flown.machine_sharing, options.json);
-    base::print_note(quiet, fmt::format("results: {0}/sweep.csv, {0}/report.html", folder.path().string()));
+    base::print_note(options.quiet, fmt::format("results: {0}/sweep.csv, {0}/report.html", folder.path().string()));
     if (!hash_mismatches.empty() || !unfinished_runs(flown.results).empty()) { throw CheckFailed(); }
 }
 
-} // namespace
-
-namespace {
-
 std::vector<Option> options_of(SweepOptions& options) {
-    std::vector<Option> table{required(text_option("file", "FILE.toml", "parameter table of the batch", options.file)),
-        with_shown_default("the sweep's name",
-            text_option("--out", "DIR", "output folder for recordings, logs and the report", options.out)),
-        flag("--list", "print the names of the flights without running them", options.list),
-        choice_option("--on", "ENGINE",
-            "where flights run: local (processes on this machine), slurm (a job array) or parallel (GNU parallel over "
-            "ssh); all machines must see the folder under the same name",
-            {"local", "slurm", "parallel"}, options.on),
-        value_option(
-            {"jobs", "N", "number of flights run at once: on this machine, on each machine, or of the job array", 1,
-                10000},
-            options.jobs),
-        value_option({"split", "N", "render each flight in N parts of consecutive frames and join them", 2, 10000},
-            options.split),
-        flag("--video", "write a video of each flight to videos/NAME.mp4", options.engine.videos),
-        list_option("--sbatch", "OPTION", "further option for sbatch, such as --sbatch=--partition=long; repeatable",
-            Arity::Repeatable, options.engine.sbatch_options),
-        json_option(options.json), quiet_option(options.engine.quiet)};
+    std::vector<Option> table = with_output_options(options,
+        {required(text_option("file", "FILE.toml", "parameter table of the batch", options.file)),
+            with_shown_default("the sweep's name",
+                text_option("--out", "DIR", "output folder for recordings, logs and the report", options.out)),
+            flag("--list", "print the names of the flights without running them", options.list),
+            choice_option("--on", "ENGINE",
+                "where flights run: local (processes on this machine), slurm (a job array) or parallel (GNU parallel "
+                "over "
+                "ssh); all machines must see the folder under the same name",
+                {"local", "slurm", "parallel"}, options.on),
+            value_option({"split", "N", "render each flight in N parts of consecutive frames and join them", 2, 10000},
+                options.split),
+            flag("--video", "write a video of each flight to videos/NAME.mp4", options.engine.videos),
+            list_option("--sbatch", "OPTION",
+                "further option for sbatch, such as --sbatch=--partition=long; repeatable", Arity::Repeatable,
+                options.engine.sbatch_options)});
     add_family(table, {.name = "--batch", .form = "KEY=VALUE,...", .meaning = "how flights run:"},
-        {{"retries",
-             value_option({"retries", "N", "number of times a failed flight is repeated", 0, 100}, options.retries)},
+        {{"jobs", value_option({"jobs", "N",
+                                   "number of flights run at once: on this machine, on each machine, or of the job "
+                                   "array",
+                                   1, 10000},
+                      options.jobs)},
+            {"retries",
+                value_option({"retries", "N", "number of times a failed flight is repeated", 0, 100}, options.retries)},
             {"share-cores", flag("--share-cores",
                                 "run several flights at once on one machine; their frame times then affect each other",
                                 options.engine.share_cores)},

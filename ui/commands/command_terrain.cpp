@@ -46,29 +46,15 @@ using namespace command_line;
 
 namespace {
 
-void add_terrain_options(std::vector<Option>& table, terrain::GroundViewOptions& options) {
-    table.insert(
-        table.end(), {required(text_option("terrain", "NAME|FILE",
-                         "terrain: hills, canyon, an imported ground file, or a map in a format that GDAL reads",
-                         options.terrain))});
-    add_file_options(table, options.files);
+void add_terrain_options(std::vector<Option>& table, std::string& terrain, models::heights::ImportOptions& files) {
+    table.push_back(required(text_option("terrain", "NAME|FILE",
+        "terrain: hills, canyon, an imported ground file, or a map in a format that GDAL reads", terrain)));
+    add_file_options(table, files);
 }
 
-void add_view_options(std::vector<Option>& table, terrain::GroundViewOptions& options) {
-    constexpr double far_m = 1e7;
-    table.insert(table.end(),
-        {value_option({"eye", "X,Y,Z", "eye point in metres: east and north of the map centre, up from the datum",
-                          -far_m, far_m},
-             options.eye_m),
-            value_option({"look", "X,Y,Z", "point shown in the middle of the picture, in the same frame as --eye",
-                             -far_m, far_m},
-                options.look_m),
-            value_option({"size", "WIDTHxHEIGHT", "picture size in pixels", 16, 16384}, options.size_px),
-            value_option({"fov", "DEGREES", "vertical field of view", 0.1, 170.0}, options.fov_deg)});
-}
-
-/// What refines the mesh, without its budget.
-void add_mesh_options(std::vector<Option>& table, terrain::GroundMeshOptions& options, bool& curved) {
+/// What refines the mesh, without its budget. `more` are further keys of --terrain-mesh.
+void add_mesh_options(std::vector<Option>& table, terrain::GroundMeshOptions& options, bool& curved,
+    const std::vector<FamilyKey>& more = {}) {
     visuals::scene::TerrainLod& lod = options.lod;
     table.push_back(
         value_option({"terrain-lod", "KIND[:KEY=VALUE,...]",
@@ -83,20 +69,22 @@ void add_mesh_options(std::vector<Option>& table, terrain::GroundMeshOptions& op
                 value_option({"roughness-c", "C", "", 0.0, 1e5}, lod.roughness_c), "--terrain-lod exact:roughness-c=C"),
             old_name(value_option({"resolution-c", "C", "", 1.0, 1e5}, lod.resolution_c),
                 "--terrain-lod exact:resolution-c=C")});
-    add_family(table, {.name = "--terrain-mesh", .form = "KEY,...", .meaning = "properties of a screen-error mesh:"},
-        {{"geomorphs",
-             flag("--geomorphs,!--no-geomorphs",
-                 "interpolate vertices that enter the mesh, as flights do; otherwise every vertex has its own height",
-                 options.geomorphs)},
-            {"curvature",
-                flag("--curved", "lower the ground by d^2 / 2R for earth curvature, as flights do", curved)}});
+    std::vector<FamilyKey> keys{
+        {"geomorphs", flag("--geomorphs,!--no-geomorphs",
+                          "screen-error: interpolate vertices that enter the mesh, as flights do; otherwise every "
+                          "vertex has its own height",
+                          options.geomorphs)},
+        {"curvature",
+            flag("--curved", "screen-error: lower the ground by d^2 / 2R for earth curvature, as flights do", curved)}};
+    keys.insert(keys.end(), more.begin(), more.end());
+    add_family(table, {.name = "--terrain-mesh", .form = "KEY,...", .meaning = "properties of the mesh:"}, keys);
 }
 
 /// The view, the mesh and its budget.
-void add_drawn_mesh_options(
-    std::vector<Option>& table, terrain::GroundViewOptions& view, terrain::GroundMeshOptions& mesh) {
-    add_view_options(table, view);
-    add_mesh_options(table, mesh, view.curved);
+void add_drawn_mesh_options(std::vector<Option>& table, terrain::GroundViewOptions& view,
+    terrain::GroundMeshOptions& mesh, const std::vector<FamilyKey>& more = {}) {
+    add_eye_options(table, "in metres: east and north of the map centre, up from the datum", view);
+    add_mesh_options(table, mesh, view.curved, more);
     table.insert(table.end(),
         {value_option(
              {"error-px", "PIXELS", "screen-error: refine until the error is at most this", 0.001, 1e4}, mesh.error_px),
@@ -130,13 +118,11 @@ using visuals::groundfile::ImportStage;
 using visuals::terrain::GroundMetadata;
 using visuals::terrain::GroundShape;
 
-struct ImportCommand {
+struct ImportCommand : base::OutputOptions {
     std::vector<std::string> inputs;
     std::string out;
     models::heights::ImportOptions files;
     int threads = 2;
-    bool json = false;
-    bool quiet = false;
 };
 
 constexpr std::size_t stage_count = 5;
@@ -252,33 +238,31 @@ void show_ground_file(const std::string& file, bool verify, bool json) {
 }
 
 Command terrain_import_command() {
-    auto import_options = std::make_shared<ImportCommand>();
-    ImportCommand& options = *import_options;
+    auto work = std::make_shared<ImportCommand>();
+    ImportCommand& options = *work;
     Command command{.name = "import",
         .summary = "Makes one file that is mapped, not read, of one or several height files",
-        .options = {required(list_option("files", "FILE",
-                        "what GDAL reads, folders, patterns and archives of it; the first counts where "
-                        "they "
-                        "overlap",
-                        Arity::OneOrMore, options.inputs)),
-            required(text_option("--out", "FILE.ground", "output file", options.out)),
-            value_option({"threads", "N", "that build", 1, 256}, options.threads), json_option(options.json),
-            quiet_option(options.quiet)},
+        .options = with_output_options(
+            options, {required(list_option("files", "FILE",
+                          "what GDAL reads, folders, patterns and archives of it; the first counts where "
+                          "they "
+                          "overlap",
+                          Arity::OneOrMore, options.inputs)),
+                         required(text_option("--out", "FILE.ground", "output file", options.out)),
+                         value_option({"threads", "N", "that build", 1, 256}, options.threads)}),
         .footer = "A stopped import goes on from FILE.ground.part when it is called again.\n"
                   "Examples:\n  octant terrain import west.tif east.tif --out both.ground\n  octant "
                   "terrain import tiles/ --out region.ground",
-        .run = [import_options] { import(*import_options); }};
+        .run = [work] { import(*work); }};
     add_file_options(command.options, options.files);
     return command;
 }
 
-struct MeshOptions {
+struct MeshOptions : base::OutputOptions {
     ui::terrain::GroundViewOptions view;
     ui::terrain::GroundMeshOptions mesh;
     std::string out;
     bool ascii = false;
-    bool json = false;
-    bool quiet = false;
 };
 
 void write_mesh(MeshOptions options) {
@@ -306,12 +290,11 @@ void write_mesh(MeshOptions options) {
 
 std::vector<Option> options_of(MeshOptions& options) {
     std::vector<Option> table;
-    add_terrain_options(table, options.view);
-    add_drawn_mesh_options(table, options.view, options.mesh);
-    table.insert(table.end(), {required(text_option("--out", "FILE.ply", "output file", options.out)),
-                                  flag("--ascii", "write text instead of little-endian binary", options.ascii),
-                                  json_option(options.json), quiet_option(options.quiet)});
-    return table;
+    add_terrain_options(table, options.view.terrain, options.view.files);
+    add_drawn_mesh_options(table, options.view, options.mesh,
+        {{"ascii", flag("--ascii", "write text instead of little-endian binary", options.ascii)}});
+    table.push_back(required(text_option("--out", "FILE.ply", "output file", options.out)));
+    return with_output_options(options, std::move(table));
 }
 
 Command terrain_mesh_command() {
@@ -324,20 +307,18 @@ Command terrain_mesh_command() {
         .run = [options] { write_mesh(*options); }};
 }
 
-struct ErrorOptions {
+struct ErrorOptions : base::OutputOptions {
     ui::terrain::GroundViewOptions view;
     ui::terrain::GroundMeshOptions mesh;
     std::optional<double> target_error_px;
     std::string eye_points;
     std::string map;
     bool compare = false;
-    bool json = false;
-    bool quiet = false;
 };
 
 void show_error(ErrorOptions options) {
     if (options.compare && !options.target_error_px) {
-        throw Error("--compare: expected --solve PIXELS beside it, got none");
+        throw Error("--study compare: expected solve=PIXELS with it, got none");
     }
     const terrain::LoadedGround ground = terrain::load_ground(options.view, options.quiet);
     ui::terrain::ErrorMeasurement run{options.view, options.mesh, {}, options.target_error_px, options.quiet};
@@ -358,7 +339,7 @@ void show_error(ErrorOptions options) {
 
 std::vector<Option> options_of(ErrorOptions& options) {
     std::vector<Option> table;
-    add_terrain_options(table, options.view);
+    add_terrain_options(table, options.view.terrain, options.view.files);
     add_drawn_mesh_options(table, options.view, options.mesh);
     add_family(table,
         {.name = "--study", .form = "KEY[=VALUE],...", .meaning = "many views, and the mesh that meets an error:"},
@@ -373,8 +354,7 @@ std::vector<Option> options_of(ErrorOptions& options) {
                     "use the table rows with this map name [name of the terrain file without ending]", options.map)},
             {"compare", flag("--compare", "with solve: also measure Roettger's rule, with full and partial fans",
                             options.compare)}});
-    table.insert(table.end(), {json_option(options.json), quiet_option(options.quiet)});
-    return table;
+    return with_output_options(options, std::move(table));
 }
 
 Command terrain_error_command() {
@@ -387,29 +367,28 @@ Command terrain_error_command() {
         .run = [options] { show_error(*options); }};
 }
 
-struct QueryOptions {
+struct QueryOptions : base::OutputOptions {
     ui::terrain::GroundViewOptions view;
     ui::terrain::GroundMeshOptions mesh;
-    std::vector<std::string> at;
-    std::string points;
+    std::vector<std::string> at; ///< points or CSV files of points
     std::vector<std::string> source;
     std::optional<glm::dvec3> from_m;
     std::optional<glm::dvec3> to_m;
     bool flat = false;
     bool as_drawn = false;
-    bool json = false;
 };
 
 std::vector<ui::terrain::QueryPoint> query_points(const QueryOptions& options) {
     std::vector<ui::terrain::QueryPoint> points;
     for (const std::string& text : options.at) {
-        const auto point = ui::terrain::point_from_text(text);
-        if (!point) { throw Error(fmt::format("--at: expected X,Y or X,Y,Z, got '{}'", printable(text))); }
-        points.push_back(*point);
-    }
-    if (!options.points.empty()) {
-        const std::vector<ui::terrain::QueryPoint> more = ui::terrain::read_points(options.points);
-        points.insert(points.end(), more.begin(), more.end());
+        if (const auto point = ui::terrain::point_from_text(text)) {
+            points.push_back(*point);
+        } else if (is_file(text)) {
+            const std::vector<ui::terrain::QueryPoint> more = ui::terrain::read_points(text);
+            points.insert(points.end(), more.begin(), more.end());
+        } else {
+            throw Error(fmt::format("--at: expected X,Y, X,Y,Z or a CSV file, got '{}'", printable(text)));
+        }
     }
     return points;
 }
@@ -435,8 +414,8 @@ void query(QueryOptions options) {
         throw Error("expected --from X,Y,Z and --to X,Y,Z, got only one of them");
     }
     const std::vector<ui::terrain::QueryPoint> points = query_points(options);
-    if (points.empty() && !options.from_m) { throw Error("expected --at, --points or --from and --to, got none"); }
-    const terrain::LoadedGround ground = terrain::load_ground(options.view);
+    if (points.empty() && !options.from_m) { throw Error("expected --at or --from and --to, got none"); }
+    const terrain::LoadedGround ground = terrain::load_ground(options.view, options.quiet);
     const visuals::terrain::GroundSamples samples = ground.samples();
     ui::terrain::QueryResults answers;
     if (options.as_drawn) {
@@ -461,11 +440,16 @@ void query(QueryOptions options) {
 std::vector<Option> options_of(QueryOptions& options) {
     constexpr double far_m = 1e7;
     std::vector<Option> table;
-    add_terrain_options(table, options.view);
+    add_terrain_options(table, options.view.terrain, options.view.files);
     table.insert(table.end(),
-        {list_option("--at", "X,Y[,Z]", "print the ground height at X,Y; with Z also the height above ground",
+        {list_option("--at", "X,Y[,Z]|FILE.csv",
+             "print the ground height at X,Y or at each line x,y[,z] of a CSV file; with Z also the height above "
+             "ground",
              Arity::OneOrMore, options.at),
-            text_option("--points", "FILE", "as --at, for each line of a CSV file x,y[,z]", options.points),
+            old_name({.name = "--points",
+                         .form = "FILE",
+                         .read = [&options](const Words& words) { options.at.push_back(words.front()); }},
+                "--at FILE.csv"),
             list_option("--source", "FILE",
                 "read point heights from these source maps of the terrain, at their own resolution", Arity::OneOrMore,
                 options.source),
@@ -478,8 +462,7 @@ std::vector<Option> options_of(QueryOptions& options) {
             flag("--as-drawn", "query the mesh drawn from --eye instead of the full-resolution terrain",
                 options.as_drawn)});
     add_drawn_mesh_options(table, options.view, options.mesh);
-    table.push_back(json_option(options.json));
-    return table;
+    return with_output_options(options, std::move(table));
 }
 
 Command terrain_query_command() {
@@ -496,17 +479,17 @@ Command terrain_query_command() {
         .run = [options] { query(*options); }};
 }
 
-struct CheckOptions {
+struct CheckOptions : base::OutputOptions {
     ui::terrain::GroundViewOptions view;
     ui::terrain::GroundMeshOptions mesh;
     ui::terrain::TerrainCheck check;
-    bool json = false;
 };
 
 void check(CheckOptions options) {
-    const terrain::LoadedGround ground = terrain::load_ground(options.view);
+    const terrain::LoadedGround ground = terrain::load_ground(options.view, options.quiet);
     const auto maker = ui::terrain::make_mesh_maker(ground, options.mesh);
     ui::terrain::TerrainCheck asked = options.check;
+    asked.quiet = options.quiet;
     asked.earth_radius_m = options.view.earth_radius_m;
     asked.by_error = visuals::scene::ground_metric(options.mesh.lod) == visuals::scene::GroundMetric::ScreenError;
     const ui::terrain::TerrainCheckResult check_result = ui::terrain::check_terrain(*maker, asked);
@@ -537,7 +520,7 @@ void check(CheckOptions options) {
 std::vector<Option> options_of(CheckOptions& options) {
     ui::terrain::TerrainCheck& asked = options.check;
     std::vector<Option> table;
-    add_terrain_options(table, options.view);
+    add_terrain_options(table, options.view.terrain, options.view.files);
     add_mesh_options(table, options.mesh, options.view.curved);
     table.insert(table.end(),
         {value_option({"frames", "N", "number of random views", 1, 1e8}, asked.views),
@@ -546,9 +529,8 @@ std::vector<Option> options_of(CheckOptions& options) {
             hidden(value_option({"every", "N", "mesh only every Nth view", 1, 1e6}, asked.every)),
             hidden(
                 value_option({"draw-every", "N", "also draw every Nth meshed view over a key colour; 0 = none", 0, 1e6},
-                    asked.draw_every)),
-            json_option(options.json), quiet_option(asked.quiet)});
-    return table;
+                    asked.draw_every))});
+    return with_output_options(options, std::move(table));
 }
 
 Command terrain_check_command() {
@@ -561,11 +543,9 @@ Command terrain_check_command() {
         .run = [options] { check(*options); }};
 }
 
-struct TerrainOptions {
+struct TerrainOptions : base::OutputOptions {
     std::string terrain;
     models::heights::ImportOptions files;
-    bool json = false;
-    bool quiet = false;
     bool verify = false;
     std::string picture;
     std::string kind = "hills";
@@ -617,7 +597,7 @@ void add_source(const models::heights::HeightField& field, const TerrainOptions&
 void show(const TerrainOptions& options) {
     if (settings::is_imported_ground(options.terrain)) {
         if (!options.picture.empty()) {
-            const terrain::LoadedGround ground = terrain::load_ground(options.terrain, options.files);
+            const terrain::LoadedGround ground = terrain::load_ground(options.terrain, options.files, options.quiet);
             report::write_png(options.picture, terrain::map_picture(ground.samples(), {}).view());
         }
         show_ground_file(options.terrain, options.verify, options.json);
@@ -653,36 +633,36 @@ void make(TerrainOptions options) {
 
 Command info_command() {
     auto options = std::make_shared<TerrainOptions>();
-    Command command{.name = "info",
+    std::vector<Option> table;
+    add_terrain_options(table, options->terrain, options->files);
+    table.insert(table.end(),
+        {text_option("--picture", "OUT.png",
+             "write a picture of the terrain from above with a height legend; numbered red rings mark the locations "
+             "of the notes",
+             options->picture),
+            flag("--check", "check the whole imported ground file for damage", options->verify),
+            old_name(flag("--verify", "", options->verify), "--check")});
+    return {.name = "info",
         .summary = "Shows size, heights, slopes, voids and location of a terrain, map projection errors, and the "
                    "deviation of loaded heights from the file",
-        .options = {required(text_option("terrain", "NAME|FILE",
-                        "terrain: hills, canyon, an imported ground file, or a map in a format that GDAL reads",
-                        options->terrain)),
-            text_option("--picture", "OUT.png",
-                "write a picture of the terrain from above with a height legend; numbered red rings mark the locations "
-                "of the notes",
-                options->picture),
-            json_option(options->json),
-            flag("--check", "check the whole imported ground file for damage", options->verify),
-            old_name(flag("--verify", "", options->verify), "--check")},
+        .options = with_output_options(*options, std::move(table)),
         .footer = "Example:\n  octant terrain info map.tif --json",
         .run = [options] { show(*options); }};
-    add_file_options(command.options, options->files);
-    return command;
 }
 
 Command make_command() {
     auto options = std::make_shared<TerrainOptions>();
     return {.name = "make",
         .summary = "Generates a procedural terrain from a seed and writes it as GeoTIFF",
-        .options = {text_option("--kind", "KIND", "hills (gentle) or canyon (rugged)", options->kind),
-            value_option({"size", "N", "number of samples per side", 2, 20000}, options->made.size),
-            value_option({"terrain-spacing", "METRES", "sample spacing in metres", 0.1, 1000}, options->made.spacing_m),
-            old_name(value_option({"spacing", "METRES", "", 0.1, 1000}, options->made.spacing_m), "--terrain-spacing"),
-            value_option({"seed", "S", "random seed", 0, 1e9}, options->seed),
-            required(text_option("--out", "FILE.tif", "output file", options->out)), json_option(options->json),
-            quiet_option(options->quiet)},
+        .options = with_output_options(*options,
+            {text_option("--kind", "KIND", "hills (gentle) or canyon (rugged)", options->kind),
+                value_option({"size", "N", "number of samples per side", 2, 20000}, options->made.size),
+                value_option(
+                    {"terrain-spacing", "METRES", "sample spacing in metres", 0.1, 1000}, options->made.spacing_m),
+                old_name(
+                    value_option({"spacing", "METRES", "", 0.1, 1000}, options->made.spacing_m), "--terrain-spacing"),
+                value_option({"seed", "S", "random seed", 0, 1e9}, options->seed),
+                required(text_option("--out", "FILE.tif", "output file", options->out))}),
         .footer = "Example:\n  octant terrain make --kind canyon --size 2049 --seed 7 --out made.tif",
         .run = [options] { make(*options); }};
 }

@@ -2,11 +2,9 @@
 #include "ui/base/data_files.h"
 #include "ui/base/json_value.h"
 #include "ui/base/progress.h"
-#include "ui/base/stop_signals.h"
 #include "ui/base/stopwatch.h"
 #include "ui/command_line/setting_option.h"
 #include "ui/commands/commands.h"
-#include "ui/commands/window_options.h"
 #include "ui/report/statistics.h"
 #include "ui/window/viewer.h"
 #include "ui/world/input_files.h"
@@ -27,6 +25,18 @@ namespace octant::ui::commands {
 using namespace command_line;
 using window::Viewer;
 using window::ViewOptions;
+
+void add_window_options(std::vector<Option>& table, ViewOptions& view, const std::vector<FamilyKey>& more) {
+    std::vector<FamilyKey> keys{{"full-screen", flag("--full-screen", "fill the screen (F11)", view.full_screen)},
+        {"vsync", with_shown_default(
+                      "true", flag("--vsync,!--no-vsync",
+                                  "one picture per refresh of the display; else as many as possible", view.vsync))},
+        {"panels",
+            with_shown_default("true", flag("--panels,!--no-panels", "begin with panels shown (Tab)", view.panels))}};
+    keys.insert(keys.end(), more.begin(), more.end());
+    add_family(table, {.name = "--window", .form = "[no-]KEY,...", .meaning = "the window:", .shown = Shown::InHelpAll},
+        std::move(keys));
+}
 
 namespace {
 
@@ -50,7 +60,7 @@ WindowTimes times_of(const std::vector<double>& frame_ms) {
     return {statistics.p50_ms, statistics.p99_ms};
 }
 
-ViewOptions without_vsync_and_realtime(ViewOptions options) {
+ViewOptions for_bench(ViewOptions options) {
     options.vsync = false;
     options.config_folder.clear();
     return options;
@@ -59,7 +69,7 @@ ViewOptions without_vsync_and_realtime(ViewOptions options) {
 /// Takes turns between the three ways, frame by frame, and times each whole turn, from the simulation to the picture
 /// read or shown with everything that the window does in between. Opens a window. Throws Error.
 WindowBench bench_window(const ViewOptions& options, int frames, bool quiet) {
-    Viewer viewer(without_vsync_and_realtime(options));
+    Viewer viewer(for_bench(options));
     settings::RunSettings settings = viewer.session().settings();
     settings.drawing.context = settings::ContextKind::OsMesa;
     flight::Session session(settings);
@@ -117,15 +127,13 @@ void view(const ViewOptions& options, const std::vector<std::string>& given, boo
     for (const std::string& note : world::near_detail_warnings(world, options.settings.ground, given)) {
         base::print_note(quiet, "note: " + note);
     }
-    run_viewer(viewer, options.settings.time.frames, quiet);
+    viewer.run(options.settings.time.frames, quiet);
 }
 
-struct ViewWork {
+struct ViewWork : base::OutputOptions {
     ViewOptions view;
-    std::vector<std::string> given; ///< names of the settings' options that stand there
+    std::vector<std::string> given; ///< names of the setting options on the command line
     std::optional<int> bench;       ///< frames to time instead of a flight to see
-    bool json = false;
-    bool quiet = false;
 };
 
 void view_or_bench(ViewWork work) {
@@ -133,7 +141,7 @@ void view_or_bench(ViewWork work) {
         throw Error("path: expected a path or a track, got 'live', which others fly: octant listen");
     }
     if (work.json && !work.bench) {
-        throw Error("--json: expected --bench beside it, as a window prints no figures, got none");
+        throw Error("--json: expected --window bench=FRAMES beside it, as a window prints no figures, got none");
     }
     work.view.config_folder = base::configuration_folder();
     work.view.settings = world::with_absolute_paths(work.view.settings);
@@ -147,17 +155,20 @@ void view_or_bench(ViewWork work) {
 
 std::vector<Option> options_of(ViewWork& work) {
     ViewOptions& view = work.view;
-    std::vector<Option> table = {flag("--by-hand", "start under manual control", view.by_hand),
-        text_option("--record", "DIR", "record from the first frame into this folder", view.record),
-        advanced(value_option(
-            {"bench", "FRAMES", "time N frames without a window, with hidden panels and with open panels, in turn", 1,
-                100000},
-            work.bench)),
-        advanced(list_option("--send", "PROTOCOL:HOST:PORT", "send aircraft to another program, as octant fly --send",
-            Arity::Repeatable, view.send)),
-        json_option(work.json), quiet_option(work.quiet)};
-    add_window_options(table, view, &view.recordings_folder);
-    table.back().shown = Shown::InHelpAll;
+    std::vector<Option> table = with_output_options(
+        work, {flag("--by-hand", "start under manual control", view.by_hand),
+                  text_option("--record", "DIR", "record from the first frame into this folder", view.record),
+                  advanced(list_option("--send", "PROTOCOL:HOST:PORT",
+                      "send aircraft to another program, as octant fly --send", Arity::Repeatable, view.send))});
+    add_window_options(table, view,
+        {{"recordings", with_shown_default(view.recordings_folder.string(),
+                            text_option("--records-into", "DIR", "folder for recordings (F9) and screenshots (F12)",
+                                view.recordings_folder))},
+            {"bench", value_option({"bench", "FRAMES",
+                                       "time N frames without a window, with hidden panels and with open panels, in "
+                                       "turn, instead of a flight",
+                                       1, 100000},
+                          work.bench)}});
     add_setting_options(table, view.settings, &work.given);
     return table;
 }

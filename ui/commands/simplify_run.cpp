@@ -185,7 +185,7 @@ void without_rounding(const SimplifyArguments& command, const std::vector<std::s
 struct AttributeBound {
     std::string_view name;
     std::string_view option;
-    std::string_view result_value;
+    std::string_view result_name;
     double wanted;
 };
 
@@ -236,9 +236,9 @@ bool reaches_goals(
             wanted_error_m));
     }
     for (const AttributeBound& bound : bounds_of(command)) {
-        if (bound.wanted > 0.0 && result_value(bound.result_value) > bound.wanted) {
+        if (bound.wanted > 0.0 && result_value(bound.result_name) > bound.wanted) {
             refuse(fmt::format("{} are off by {:.4g}, more than {} {:.4g}", bound.name,
-                result_value(bound.result_value), bound.option, bound.wanted));
+                result_value(bound.result_name), bound.option, bound.wanted));
         }
     }
     if ((goal.faces && result_value("faces") > static_cast<double>(*goal.faces)) ||
@@ -255,11 +255,11 @@ std::optional<simplify::AttributeBounds> attribute_bounds(
     const SimplifyArguments& command, const simplify::AttributeSeams& seams) {
     simplify::AttributeBounds bounds;
     bool is_bounded = false;
-    for (const auto& [bound, wanted, path_exists] :
+    for (const auto& [bound, wanted, has_attribute] :
         {std::tuple(&bounds.texture, command.uv_error, seams.has_texture_coordinates()),
             std::tuple(&bounds.normal_deg, command.normal_error, seams.has_normals()),
             std::tuple(&bounds.colour, command.colour_error, seams.has_colours())}) {
-        if (wanted > 0.0 && path_exists) {
+        if (wanted > 0.0 && has_attribute) {
             *bound = wanted;
             is_bounded = true;
         }

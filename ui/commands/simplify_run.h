@@ -3,6 +3,7 @@
 #include "models/simplify/paper_simplify.h"
 #include "sim/base/thread_pool.h"
 #include "ui/base/json_value.h"
+#include "ui/base/output_options.h"
 
 #include <optional>
 #include <string>
@@ -11,7 +12,7 @@
 namespace octant::ui::commands {
 
 /// Arguments of `octant simplify`.
-struct SimplifyArguments {
+struct SimplifyArguments : base::OutputOptions {
     std::vector<std::string> files; ///< as they stand in the command line
     std::string in;                 ///< the first one; with shared_border unused
     std::string out;                ///< the last one of two; empty without
@@ -36,8 +37,6 @@ struct SimplifyArguments {
     double colour_error = 0.0; ///< 0: no bound
     std::string chart;
     std::string polygons;
-    bool json = false;
-    bool quiet = false;
 };
 
 /// Whether an attribute has a bound.

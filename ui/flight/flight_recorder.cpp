@@ -279,8 +279,8 @@ FlightRecorder::FlightRecorder(
     if (options.folder) {
         report::RunInfo info = run_info(settings, session, *options.folder);
         if (options.replay_of) { info.facts.emplace_back("replay of", options.replay_of->filename().string()); }
-        if (!options.batch_context.empty()) {
-            info.facts.emplace_back(report::batch_context_fact, options.batch_context);
+        if (!options.machine_sharing.empty()) {
+            info.facts.emplace_back(report::machine_sharing_fact, options.machine_sharing);
         }
         recording_.emplace(*options.folder, std::move(info));
         if (settings.path.name == settings::live_path) {

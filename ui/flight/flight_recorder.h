@@ -31,7 +31,7 @@ struct RecordOptions {
     /// The recording whose frames this flight repeats.
     std::optional<std::filesystem::path> replay_of;
     /// How a sweep shares the machine between this flight and others, for reports; empty = no sweep.
-    std::string batch_context;
+    std::string machine_sharing;
 };
 
 /// What came out of a flight.

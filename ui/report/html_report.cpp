@@ -169,15 +169,15 @@ std::string link_to(const LoadedRecording& recording, const fs::path& page_folde
 }
 
 /// How sweeps flew them, where sweeps did: " 24 flown by a sweep one at a time."
-std::string batch_context_text(Recordings recordings) {
+std::string machine_sharing_text(Recordings recordings) {
     std::map<std::string, int> counts;
     for (const LoadedRecording& recording : recordings) {
-        const std::string batch_context = value_of(recording.run.facts, batch_context_fact);
-        counts[batch_context] += batch_context.empty() ? 0 : 1;
+        const std::string machine_sharing = value_of(recording.run.facts, machine_sharing_fact);
+        counts[machine_sharing] += machine_sharing.empty() ? 0 : 1;
     }
     std::string text;
-    for (const auto& [batch_context, count] : counts) {
-        text += count == 0 ? "" : fmt::format(" {} flown by a sweep {}.", count, batch_context);
+    for (const auto& [machine_sharing, count] : counts) {
+        text += count == 0 ? "" : fmt::format(" {} flown by a sweep {}.", count, machine_sharing);
     }
     return text;
 }
@@ -210,7 +210,7 @@ std::string runs_table(Recordings recordings, const fs::path& page_folder) {
     }
     table.note = "A click on a column's head sorts by it. States and pictures are the first eight digits of their "
                  "hashes." +
-                 batch_context_text(recordings);
+                 machine_sharing_text(recordings);
     if (left_out > 0) {
         table.note += fmt::format(" {} more settings differ; they are in the flights' own pages.", left_out);
     }

@@ -30,7 +30,7 @@ inline constexpr const char* unset_value = "null";
 inline constexpr const char* window_fact = "flown";
 
 /// Name of the fact that a flight of a sweep has: how many of the sweep's flights shared a machine.
-inline constexpr const char* batch_context_fact = "swept";
+inline constexpr const char* machine_sharing_fact = "swept";
 
 /// What run.json says from the start of a flight.
 struct RunInfo {

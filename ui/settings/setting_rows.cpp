@@ -49,12 +49,14 @@ SettingsChange change_between(const RunSettings& before, const RunSettings& afte
     return change;
 }
 
-void set_by_name(RunSettings& settings, std::string_view name, const std::vector<std::string>& words) {
+std::string set_by_name(RunSettings& settings, std::string_view name, const std::vector<std::string>& words) {
     bool known = false;
+    std::string note;
     const auto read = [&](const auto& row) {
         if (row.name == name) {
             known = true;
             read_words(row, words, row.of(settings));
+            note = old_name_note(row, words.front(), row.of(settings));
         }
     };
     visit_rows(read);
@@ -62,6 +64,7 @@ void set_by_name(RunSettings& settings, std::string_view name, const std::vector
     if (!known) {
         throw Error(fmt::format("{}: expected the name of a setting, got this", printable(std::string(name))));
     }
+    return note;
 }
 
 void resolve_paths_from(const fs::path& folder, RunSettings& settings) {

@@ -430,8 +430,9 @@ void visit_old_rows(Visit&& visit) {
 SettingsChange change_between(const RunSettings& before, const RunSettings& after);
 
 /// Sets one setting by its name, also an old one, as words on a command line would; only lists take several. Throws
-/// Error "NAME: expected ..., got ..." and for a name that no setting has.
-void set_by_name(RunSettings& settings, std::string_view name, const std::vector<std::string>& words);
+/// Error "NAME: expected ..., got ..." and for a name that no setting has. Returns the note for a value under an old
+/// name, else an empty string.
+std::string set_by_name(RunSettings& settings, std::string_view name, const std::vector<std::string>& words);
 
 /// Replaces names of files that exist relative to `folder` by paths that are valid from the working directory. Built-in
 /// names have precedence; names of files that do not exist there stay.

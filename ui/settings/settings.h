@@ -102,6 +102,14 @@ struct RunSettings : visuals::scene::Settings {
     bool operator==(const RunSettings&) const = default;
 };
 
+/// Eye point, point in the middle of the picture, and picture of commands that draw one picture. Frame: the command's.
+struct EyeView {
+    std::optional<glm::dvec3> eye_m;
+    std::optional<glm::dvec3> look_m;
+    glm::ivec2 size_px{1280, 720};
+    double fov_deg = 45.0; ///< vertical
+};
+
 /// Default settings for measurements: without procedural detail, scenery and roads.
 inline RunSettings measurement_settings() {
     RunSettings settings;

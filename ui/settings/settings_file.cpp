@@ -95,7 +95,7 @@ ordered_json settings_json(const RunSettings& settings) {
     return json;
 }
 
-RunSettings read_settings(const std::filesystem::path& given) {
+RunSettings read_settings(const std::filesystem::path& given, std::vector<std::string>* notes) {
     const std::filesystem::path path = report::run_file_of(given);
     constexpr std::size_t largest_bytes = std::size_t{16} << 20;
     const std::string text = read_text_file(path, largest_bytes);
@@ -113,6 +113,8 @@ RunSettings read_settings(const std::filesystem::path& given) {
         if (found == json.end()) { return; }
         try {
             read_field(row, *found, row.of(settings));
+            const std::string note = old_name_note(row, scalar_text(*found), row.of(settings));
+            if (notes != nullptr && !note.empty()) { notes->push_back(note); }
         } catch (const Error& fault) { throw_error_at(path, line_of_key(text, row.name), fault.what()); }
     };
     visit_rows(read_row);

@@ -4,6 +4,8 @@
 
 #include <filesystem>
 #include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
 
 namespace octant::ui::settings {
 
@@ -13,7 +15,7 @@ nlohmann::ordered_json settings_json(const RunSettings& settings);
 /// Reads settings from a settings file or from a recording: its run.json ("settings" there), its folder or its packed
 /// file. Files that lie in the recording, or where it says that they lie from it, are then named from here. Settings
 /// that are not there keep their defaults. Throws Error with file and line for an unknown key, a wrong type or a value
-/// out of range.
-RunSettings read_settings(const std::filesystem::path& given);
+/// out of range. A note for each value under an old name is added to `notes` unless that is null.
+RunSettings read_settings(const std::filesystem::path& given, std::vector<std::string>* notes = nullptr);
 
 } // namespace octant::ui::settings

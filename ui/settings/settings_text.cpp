@@ -2,7 +2,6 @@
 
 #include "sim/base/error.h"
 #include "sim/base/text_file.h"
-#include "ui/base/progress.h"
 
 #include <algorithm>
 #include <array>
@@ -180,8 +179,8 @@ void check_listed(const FieldInfo& info, int value) {
     }
 }
 
-void print_old_name_note(const FieldInfo& info, std::string_view text, std::string_view meaning) {
-    base::print_note(false, fmt::format("note: {}: '{}' is {}", info.name, text, meaning));
+std::string old_name_note(std::string_view name, std::string_view text, std::string_view meaning) {
+    return fmt::format("{}: '{}' is {}", name, text, meaning);
 }
 
 std::size_t read_choice(const FieldInfo& info, std::string_view text, const std::vector<std::string_view>& names) {

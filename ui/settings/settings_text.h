@@ -33,7 +33,8 @@ EnumName(Enum, std::string_view) -> EnumName<Enum>;
 template <class Enum>
 inline constexpr std::array<EnumName<Enum>, 0> enum_names{};
 
-/// A name that older versions wrote for a value; read until version 1.1, with a note that says its `meaning`.
+/// A name that older versions wrote for a value; read until version 1.1. `meaning` ends the note
+/// that tells of it.
 template <class Enum>
 struct OldEnumName {
     std::string_view name;
@@ -243,8 +244,19 @@ void check_listed(const FieldInfo& info, int value);
 /// Returns the index of `text` among `names`. Throws Error "NAME: expected one of ..., got ...".
 std::size_t read_choice(const FieldInfo& info, std::string_view text, const std::vector<std::string_view>& names);
 
-/// Prints the note "NAME: 'tree' is the old name of exact" on stderr.
-void print_old_name_note(const FieldInfo& info, std::string_view text, std::string_view meaning);
+/// The note "NAME: 'tree' is the old name of exact".
+std::string old_name_note(std::string_view name, std::string_view text, std::string_view meaning);
+
+/// The note for a text that read_setting() takes for a value of this type, if it is an old name; else an empty string.
+template <class Value>
+std::string old_name_note(const FieldInfo& info, std::string_view text, const Value&) {
+    if constexpr (std::is_enum_v<Value>) {
+        for (const OldEnumName<Value>& old : old_enum_names<Value>) {
+            if (text == old.name) { return old_name_note(info.name, text, old.meaning); }
+        }
+    }
+    return {};
+}
 
 template <class Enum>
 
@@ -257,12 +269,17 @@ void read_setting(const FieldInfo& info, std::string_view text, Enum& value) {
     for (const OldEnumName<Enum>& old : old_enum_names<Enum>) {
         if (text == old.name) {
             value = old.value;
-            print_old_name_note(info, text, old.meaning);
             return;
         }
     }
     const auto names = names_of<Enum>();
     value = static_cast<Enum>(read_choice(info, text, {names.begin(), names.end()}));
+}
+
+/// Empty if it is not set.
+template <class Value>
+std::string text_of(const std::optional<Value>& value) {
+    return value ? text_of(*value) : std::string();
 }
 
 /// Reads an optional setting as one of its type; the text "none" unsets it.

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "sim/base/thread_pool.h"
-#include "ui/base/study_output.h"
+#include "ui/base/output_options.h"
 #include "ui/flight/session.h"
 #include "ui/report/plots.h"
 #include "ui/report/png_file.h"

@@ -25,7 +25,7 @@ constexpr int max_tasks = 1000; // Slurm's MaxArraySize is 1001 where nobody cha
 
 /// The command that flies the run whose name is in the shell's `variable`.
 std::string fly_command(const EngineOptions& options, const std::string& variable) {
-    return fmt::format("{0} fly --settings \"jobs/{1}.json\" --record \"runs/{1}\" --if-new --quiet --swept "
+    return fmt::format("{0} fly --settings \"jobs/{1}.json\" --record \"runs/{1}\" --if-new --quiet --machine-sharing "
                        "{2}{3} "
                        ">\"logs/{1}.log\" 2>&1",
         shell_quoted(options.program), variable, shell_quoted(options.machine_sharing),
@@ -142,7 +142,7 @@ private:
 
     void start(const SweepRun& run) {
         std::vector<std::string> words = {options_.program, "fly", "--settings", folder_.job(run.name).string(),
-            "--record", folder_.recording(run.name).string(), "--if-new", "--quiet", "--swept",
+            "--record", folder_.recording(run.name).string(), "--if-new", "--quiet", "--machine-sharing",
             options_.machine_sharing};
         if (options_.videos) { words.insert(words.end(), {"--video", folder_.video(run.name).string()}); }
         auto program = ChildProgram::start(words, folder_.log(run.name));

@@ -11,13 +11,13 @@ namespace octant::ui::sweep {
 
 /// How the flights of a sweep are distributed.
 struct EngineOptions {
-    std::string program;                     ///< the octant program, as the machines that fly call it
-    bool share_cores = false;                ///< several at once on a machine, whatever that does to frame times
-    int jobs = 0;                            ///< at once: on a machine, of an array; 0 = as many as fit
-    int tasks = 0;                           ///< of a job array; 0 = one a run, at most 1000
-    bool videos = false;                     ///< of each flight, as SweepFolder::video has it
-    int minutes = 60;                        ///< that a task of a job array may take
-    std::vector<std::string> sbatch_options; ///< further ones, "--partition=long"
+    std::string program;      ///< the octant program, as the machines that fly call it
+    bool share_cores = false; ///< run several flights at once on a machine; their frame times then affect each other
+    int jobs = 0;             ///< flights at once on a machine or in a job array; 0 = as many as fit
+    int tasks = 0;            ///< tasks of a job array; 0 = one for each run, at most 1000
+    bool videos = false;      ///< write a video of each flight to SweepFolder::video
+    int minutes = 60;         ///< time limit of a task of a job array
+    std::vector<std::string> sbatch_options; ///< further options of sbatch, such as "--partition=long"
     std::filesystem::path hosts;             ///< GNU parallel's file of machines
     std::string machine_sharing;             ///< how the runs share machines, for reports; engines fill it in
     bool quiet = false;
@@ -47,15 +47,15 @@ std::unique_ptr<Engine> local_engine(const Sweep& sweep, const SweepFolder& fold
 /// A Slurm job array, submitted by a script in the folder. Throws Error if sbatch is not installed.
 std::unique_ptr<Engine> slurm_engine(const Sweep& sweep, const SweepFolder& folder, EngineOptions options);
 
-/// GNU parallel over ssh, by a script that lies in the folder, which all machines must see under its name. Throws Error
-/// where there is no GNU parallel.
+/// GNU parallel over ssh, started by a script in the folder. All machines must see the folder under the same name.
+/// Throws Error if GNU parallel is not installed.
 std::unique_ptr<Engine> parallel_engine(const Sweep& sweep, const SweepFolder& folder, EngineOptions options);
 
 /// The text quoted as one shell word.
 std::string shell_quoted(const std::string& text);
 
 /// A script for sbatch that flies the runs named in jobs.txt as one job array of `tasks`, each of which flies every
-/// tasks-th run. Submitted again after whatever happened, it flies what is not done yet.
+/// tasks-th run. Submitted again, it flies only the runs that are not done.
 std::string sbatch_script(const Sweep& sweep, const SweepFolder& folder, const EngineOptions& options, int tasks);
 
 /// Number of tasks of a sweep's job array.
@@ -64,8 +64,8 @@ int tasks_of(const Sweep& sweep, const EngineOptions& options);
 /// The tasks of the array that fly these runs: "0,3,7".
 std::string task_list(std::span<const std::size_t> runs, int tasks);
 
-/// A script that flies the runs named in todo.txt by GNU parallel, on the machines of a file. Run again after whatever
-/// happened, it flies what is not done yet.
+/// A script that flies the runs named in todo.txt by GNU parallel on the machines listed in a file. Run again, it flies
+/// only the runs that are not done.
 std::string parallel_script(const Sweep& sweep, const SweepFolder& folder, const EngineOptions& options);
 
 } // namespace octant::ui::sweep

@@ -9,13 +9,13 @@
 namespace octant::ui::sweep {
 
 /// The sweep of all parts of a sweep's runs: run 3 of these is part 3 % count + 1 of run 3 / count. With `for_videos`
-/// the parts keep every picture. Throws Error for flights that cannot be divided, with the reason.
+/// the parts record every picture. Throws Error, with the reason, for a flight that cannot be divided.
 Sweep split_sweep(const Sweep& sweep, int count, bool for_videos);
 
-/// Makes the recording of a whole run, with its report, of those of its parts, as if one program had flown it: rows one
-/// after the other, hashes over all of them. Each part begins with the last frame of the part before, by which the seam
-/// between them is checked. `video`: where a video of all pictures goes. Throws Error where a seam does not fit, naming
-/// both machines, and for parts of different programs or input files.
+/// Joins the recordings of the parts of a run to the recording of the whole run, with its report: the rows of all
+/// frames and the hashes over them, as if one program had flown it. Each part begins with the last frame of the part
+/// before; both recordings of that frame must be equal. `video`: the file for a video of all pictures. Throws Error,
+/// with the names of both machines, where they differ, and for parts of different programs or input files.
 void merge_parts(const SweepRun& whole, const std::filesystem::path& folder,
     const std::vector<std::filesystem::path>& parts, const std::optional<std::filesystem::path>& video);
 

@@ -40,7 +40,7 @@ public:
     explicit SweepReader(const fs::path& file)
         : file_(file), root_(flightpaths::parse_toml(file, read_text_file(file))) {}
 
-    Sweep sweep() const;
+    Sweep sweep();
 
 private:
     [[noreturn]] void refuse(const toml::node& node, const std::string& what) const {
@@ -54,13 +54,14 @@ private:
     Axis axis_of(std::string_view name, const toml::node& node) const;
     Axis named_groups(std::string_view name, const toml::table& table) const;
     std::vector<Axis> axes() const;
-    void set(settings::RunSettings& settings, const std::string& name, const Words& words, int line) const;
-    settings::RunSettings shared_settings() const;
+    void set(settings::RunSettings& settings, const std::string& name, const Words& words, int line);
+    settings::RunSettings shared_settings();
     int repeats() const;
     std::string name() const;
 
     fs::path file_;
     toml::table root_;
+    std::set<std::string> notes_; ///< of values under old names
 };
 
 const toml::table* SweepReader::table_in(const toml::table& table, std::string_view key) const {
@@ -192,16 +193,17 @@ std::vector<Axis> SweepReader::axes() const {
     return axes;
 }
 
-void SweepReader::set(settings::RunSettings& settings, const std::string& name, const Words& words, int line) const {
+void SweepReader::set(settings::RunSettings& settings, const std::string& name, const Words& words, int line) {
     try {
-        settings::set_by_name(settings, name, words);
+        const std::string note = settings::set_by_name(settings, name, words);
+        if (!note.empty()) { notes_.insert(note); }
         if (name == "aircraft" || name == "path") { // looked at here, where the line is known
             check_names(file_, settings);
         }
     } catch (const Error& fault) { throw_error_at(file_, line, fault.what()); }
 }
 
-settings::RunSettings SweepReader::shared_settings() const {
+settings::RunSettings SweepReader::shared_settings() {
     settings::RunSettings settings;
     if (const toml::table* const shared = table_in(root_, "settings")) {
         for (const auto& [key, node] : *shared) {
@@ -229,7 +231,7 @@ std::string SweepReader::name() const {
     return *name;
 }
 
-Sweep SweepReader::sweep() const {
+Sweep SweepReader::sweep() {
     constexpr std::array<std::string_view, 4> keys{"name", "repeats", "settings", "vary"};
     for (const auto& [key, node] : root_) {
         if (std::ranges::find(keys, key.str()) == keys.end()) {
@@ -274,6 +276,7 @@ Sweep SweepReader::sweep() const {
         settings::resolve_paths_from(fs::absolute(file_).parent_path(), run.settings);
         sweep.runs.push_back(std::move(run));
     }
+    sweep.notes.assign(notes_.begin(), notes_.end());
     return sweep;
 }
 

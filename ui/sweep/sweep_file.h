@@ -12,15 +12,16 @@ namespace octant::ui::sweep {
 /// One flight of a sweep.
 struct SweepRun {
     std::string name; ///< "turn-f15-2000-r2"; letters, digits, dots and dashes, once in a sweep
-    int repeat = 1;   ///< from 1; runs that differ in nothing else are to show the same
+    int repeat = 1;   ///< from 1; runs that differ only in it must have the same hashes
     settings::RunSettings settings;
-    std::vector<std::pair<std::string, std::string>> varied; ///< names and values told in its name
+    std::vector<std::pair<std::string, std::string>> varied; ///< names and values of the varied settings
 };
 
-/// What a sweep's file asks for.
+/// The flights of a sweep file.
 struct Sweep {
     std::string name;
-    std::vector<SweepRun> runs; ///< in the order of the file, the last thing varied changing fastest
+    std::vector<SweepRun> runs;          ///< in the order of the file; the last varied setting changes fastest
+    std::vector<std::string> notes = {}; ///< of values under old names, each once
 };
 
 /// The largest number of flights that one file may ask for.
@@ -38,8 +39,8 @@ inline constexpr std::size_t max_runs = 100000;
 ///   order-method = "paper"
 ///   [vary.method.tree]
 ///   order-method = "exact"
-/// Files are looked for from the sweep's folder first. Throws Error "file:line: expected ..., got ..." for anything
-/// else, and for settings that a flight would refuse by themselves.
+/// Relative file names are relative to the sweep's folder if the file exists there. Throws Error "file:line: expected
+/// ..., got ..." for anything else, and for settings that octant fly refuses without loading a world.
 Sweep read_sweep(const std::filesystem::path& file);
 
 } // namespace octant::ui::sweep

@@ -11,13 +11,13 @@
 
 namespace octant::ui::sweep {
 
-/// Where a sweep's files lie in its folder:
+/// The files of a sweep in its folder:
 ///   jobs.txt            the names of its runs, one a line
 ///   jobs/NAME.json      the settings of a run
 ///   runs/NAME/          its recording
-///   logs/NAME.log       what it said
-///   videos/NAME.mp4     a video of it, where one was asked for
-///   sweep.csv           one line a run: how it ended, where, figures, hashes
+///   logs/NAME.log       its standard output and standard error
+///   videos/NAME.mp4     its video, with --video
+///   sweep.csv           a line for each run: result, machine, statistics, hashes
 ///   report.html         all runs
 class SweepFolder {
 public:
@@ -33,36 +33,36 @@ public:
 
     std::filesystem::path video(const std::string& run) const { return folder_ / "videos" / (run + ".mp4"); }
 
-    /// Makes the folder and writes jobs.txt and jobs/. Throws Error, for a folder with other things in it too.
+    /// Makes the folder and writes jobs.txt and jobs/. Throws Error if the folder contains anything else than a sweep.
     void prepare(const Sweep& sweep) const;
 
 private:
     std::filesystem::path folder_;
 };
 
-/// How a run came out.
+/// The result of a run.
 struct RunResult {
     std::string name;
     bool done = false;
-    std::string fault; ///< why not, in a line
-    std::string host;  ///< where it was flown
+    std::string fault; ///< one line that says why it is not done
+    std::string host;  ///< the machine that flew it
     std::string state_hash;
     std::string picture_hash;
-    std::string noise; ///< why its timings are not to be trusted; empty = quiet
+    std::string noise; ///< why its times cannot be compared; empty = they can
 };
 
-/// How a result is written, but for the values that the sweep varies and the figures of the flight.
+/// The columns of a result, without those of the varied values and of the flight's statistics.
 std::span<const report::Column<RunResult>> result_columns();
 
-/// Looks at a run's recording: it is done when it has its summary, was not stopped, and was flown with these settings
-/// and input files by this very program file, and has its video where there is to be one.
+/// Reads a run's recording. The run is done if the recording has its summary, was not stopped and was made with the
+/// same settings, input files and program file, and if its video exists where `with_video` asks for one.
 RunResult result_of(const SweepFolder& folder, const SweepRun& run, bool with_video = false);
 
-/// Runs that differ in nothing but their repeats and do not show the same though no clock decides what they show: one
-/// line each, which names both runs and their machines.
+/// One line for each pair of runs with the same settings but different hashes, with both names and machines. Runs whose
+/// settings follow the clock (--adapt) are left out.
 std::vector<std::string> hash_mismatches(const Sweep& sweep, std::span<const RunResult> results);
 
-/// The results and figures as comma-separated text, one line a run.
+/// The results and statistics as comma-separated text, a line for each run.
 std::string sweep_csv(const SweepFolder& folder, const Sweep& sweep, std::span<const RunResult> results);
 
 } // namespace octant::ui::sweep

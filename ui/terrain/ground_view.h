@@ -2,6 +2,7 @@
 
 #include "models/heights/height_field.h"
 #include "models/heights/import_options.h"
+#include "ui/settings/settings.h"
 #include "visuals/scene/camera.h"
 #include "visuals/scene/settings.h"
 #include "visuals/terrain/ground_mesh.h"
@@ -22,15 +23,11 @@
 namespace octant::ui::terrain {
 
 /// Terrain, eye point and picture size: options of all commands about one mesh.
-struct GroundViewOptions {
+struct GroundViewOptions : settings::EyeView {
     std::string terrain;
     models::heights::ImportOptions files; ///< what files do not say
-    std::optional<glm::dvec3> eye_m;
-    std::optional<glm::dvec3> look_m;
-    glm::ivec2 size_px{1280, 720};
-    double fov_deg = 45.0;       ///< vertical
-    bool curved = false;         ///< whether the ground is lowered by d^2 / 2R
-    double earth_radius_m = 0.0; ///< R of the loaded ground; 0 = flat
+    bool curved = false;                  ///< whether the ground is lowered by d^2 / 2R
+    double earth_radius_m = 0.0;          ///< R of the loaded ground; 0 = flat
 };
 
 /// Kind and resolution of a terrain mesh.

@@ -9,9 +9,9 @@
 namespace octant::ui::terrain {
 
 /// A map from above, north up, about 900 pixels long: shaded relief lit from the north-west, in colours by height with
-/// a legend in metres. The colours run over all heights but the lowest and the highest 0.5 %, so that single wrong ones
-/// do not fade the rest. The places of each note are ringed in red and carry the number of the note, counted from 1.
-/// Same ground, same bytes.
+/// a legend in metres. The colour scale leaves out the lowest and the highest 0.5 % of the heights, because single
+/// wrong heights would compress it. Red rings with the number of the note, from 1, mark the locations of each note. The
+/// same ground gives the same bytes.
 report::Picture map_picture(
     const visuals::terrain::GroundSamples& ground, std::span<const models::heights::MapNote> notes);
 

@@ -11,7 +11,7 @@
 
 namespace octant::ui::terrain {
 
-/// Any of the program's meshers over one ground, driven by one number.
+/// Any of the program's meshers over one ground. One number, the coarseness, controls it.
 class MeshMaker {
 public:
     virtual ~MeshMaker() = default;
@@ -33,24 +33,24 @@ public:
 
     virtual visuals::terrain::GroundMesh mesh(const visuals::terrain::MeshView& view, double coarseness) = 0;
 
-    /// The mesh with as many triangles as steps allow, never more where that is possible.
+    /// The mesh with the most triangles up to `triangles`; more only if the coarsest mesh has more.
     virtual visuals::terrain::GroundMesh mesh_within(const visuals::terrain::MeshView& view, int triangles) = 0;
 
 protected:
     MeshMaker() = default;
 };
 
-/// The ground must outlive the maker and stay where it is. Throws Error for a kind of mesh that imported grounds have
-/// not.
+/// The ground must outlive the maker and not move. Throws Error for a kind of mesh that an imported ground does not
+/// support.
 std::unique_ptr<MeshMaker> make_mesh_maker(const LoadedGround& ground, const GroundMeshOptions& options);
 
-/// The mesh that --error-px, --triangles or --resolution-c ask for. Throws Error when none of them is there, or one
-/// that does not go with the kind of mesh.
+/// The mesh for --error-px, --triangles or resolution-c. Throws Error if none of them is given, or one that this kind
+/// of mesh does not have.
 visuals::terrain::GroundMesh mesh_from_options(
     MeshMaker& maker, const visuals::terrain::MeshView& view, const GroundMeshOptions& options);
 
-/// A mesh as a PLY file: world coordinates in double precision, triangles counter-clockwise from above. `eye_m`: what
-/// the mesh is relative to.
+/// A mesh as a PLY file: world coordinates in double precision, triangles counter-clockwise from above. Positions of
+/// the mesh are relative to `eye_m`.
 std::string ply_of(const visuals::terrain::GroundMesh& mesh, const glm::dvec3& eye_m, bool ascii);
 
 } // namespace octant::ui::terrain

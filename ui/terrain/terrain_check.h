@@ -18,20 +18,20 @@
 
 namespace octant::ui::terrain {
 
-/// A look at a ground and how fine its mesh is to be.
+/// A view of a ground and the resolution of its mesh.
 struct RandomView {
     visuals::scene::Camera camera;
-    std::optional<int> triangles; ///< else coarseness decides
+    std::optional<int> triangles; ///< budget; without it `coarseness` counts
     double coarseness = 0.0;      ///< as MeshMaker::mesh takes it
 };
 
-/// View `number` of a seed: over the map or, three in ten, beside it, 2 m to 20 km above the ground, in any direction
-/// between straight down and 30 degrees up, fields of view of 5 to 100 degrees; meshes of 100 to 60,000 triangles, of C
-/// from 2 to 64 or of errors from 0.25 to 32 pixels. Depends on nothing else.
+/// View `number` of a seed: over the map or, in three of ten cases, outside it, 2 m to 20 km above the ground, in any
+/// direction between straight down and 30 degrees up, fields of view of 5 to 100 degrees; meshes of 100 to 60,000
+/// triangles, of C from 2 to 64 or of errors from 0.25 to 32 pixels. The result depends on the arguments alone.
 RandomView random_view(
     const visuals::terrain::GroundSamples& ground, bool by_error, std::uint64_t seed, std::uint64_t number);
 
-/// Draws meshes over a colour that nothing else has and looks for it inside the ground.
+/// Draws meshes over a key colour that nothing else has and finds its pixels inside the ground.
 class CrackFinder {
 public:
     /// For meshes of a ground that reaches `half_extent_m` from its centre. Throws Error when there is no renderer.
@@ -42,8 +42,8 @@ public:
     CrackFinder(CrackFinder&&) = delete;
     CrackFinder& operator=(CrackFinder&&) = delete;
 
-    /// Pixels through which the key colour is seen though their ray comes from above the mesh and goes on below it:
-    /// cracks and holes.
+    /// Returns the number of pixels with the key colour whose ray goes from above the mesh to below it: cracks and
+    /// holes.
     int cracks(const visuals::terrain::GroundMesh& mesh, const visuals::scene::Camera& camera);
 
 private:
@@ -64,12 +64,12 @@ private:
     std::vector<std::uint32_t> facing_;
 };
 
-/// Which random views of a ground are looked at.
+/// Which random views of a ground are checked.
 struct TerrainCheck {
     int views = 1000;
     int seed = 1;
-    int every = 1;       ///< of these views
-    int draw_every = 50; ///< of those; 0 = none is drawn
+    int every = 1;       ///< only every Nth view is meshed
+    int draw_every = 50; ///< every Nth meshed view is drawn; 0 = none
     double earth_radius_m = 0.0;
     bool by_error = false; ///< the maker's coarseness is in pixels
     bool quiet = false;
@@ -79,13 +79,13 @@ struct TerrainCheckResult {
     int views = 0;
     int drawn = 0;
     long triangles = 0;
-    int cracked_views = 0; ///< with any of the following
+    int cracked_views = 0; ///< views with any fault below
     visuals::terrain::Conformity edges;
     long key_pixels = 0;
 };
 
-/// Meshes random views and checks each by edge matching and some by drawing them over a key colour. Tells of views with
-/// faults on stderr unless quiet. Throws Error when nothing can draw.
+/// Meshes random views and checks each by edge matching and some by drawing them over a key colour. Prints views with
+/// faults on stderr unless quiet. Throws Error if there is no renderer.
 TerrainCheckResult check_terrain(MeshMaker& maker, const TerrainCheck& check);
 
 } // namespace octant::ui::terrain

@@ -18,7 +18,7 @@
 
 namespace octant::ui::terrain {
 
-/// A place that is asked about, world axes, metres.
+/// A point whose ground height is asked for: world axes, metres.
 struct QueryPoint {
     double x_m = 0.0;
     double y_m = 0.0;
@@ -28,8 +28,8 @@ struct QueryPoint {
 /// "X,Y" or "X,Y,Z"; nothing for anything else.
 std::optional<QueryPoint> point_from_text(std::string_view text);
 
-/// One point a line; lines that begin with # are passed over, so is a first line of names. Throws Error with the line
-/// of a wrong one.
+/// Reads a point from each line. Skips lines that begin with # and a header line. Throws Error with the line of an
+/// invalid point.
 std::vector<QueryPoint> read_points(const std::filesystem::path& file);
 
 struct QueryPointResult {
@@ -40,15 +40,15 @@ struct QueryPointResult {
     std::optional<double> above_ground_m; ///< of z_m
 };
 
-/// The answer for a point whose ground has that height.
+/// The result for a point whose ground has that height.
 QueryPointResult answer_of(const QueryPoint& point, const std::optional<double>& ground_m);
 
-/// How an answer is written.
+/// The columns of a result.
 std::span<const report::Column<QueryPointResult>> query_columns();
 
 struct LineOfSightAnswer {
     bool visible = true;
-    std::optional<glm::dvec3> blocked_at_m;       ///< the first ground that hides
+    std::optional<glm::dvec3> blocked_at_m;       ///< the first ground that the line meets
     std::optional<double> clearance_m;            ///< least height of the line above the ground
     std::optional<glm::dvec3> min_clearance_at_m; ///< the ground there
 };
@@ -65,23 +65,23 @@ std::vector<QueryPointResult> ground_heights_at(
 struct DrawnMesh {
     visuals::terrain::MeshSurface surface;
     glm::dvec3 eye_m{0.0};       ///< world
-    double earth_radius_m = 0.0; ///< by which it sinks away from the eye; 0 = flat
+    double earth_radius_m = 0.0; ///< the mesh is lowered with distance by this radius; 0 = flat
 
-    /// How far it is drawn below its height above datum.
+    /// How far the mesh is lowered at a point, metres.
     double drop_m(const glm::dvec2& at_m) const {
         const glm::dvec2 away_m = at_m - glm::dvec2(eye_m);
         return visuals::terrain::curvature_drop_m(glm::dot(away_m, away_m), earth_radius_m);
     }
 };
 
-/// Where the asked points lie over the ground as its mesh is drawn; heights are above datum.
+/// Heights of the drawn mesh at the points, above datum.
 std::vector<QueryPointResult> drawn_heights_at(const DrawnMesh& drawn, std::span<const QueryPoint> points);
 
-/// `radius_m`: of the earth, 0 = flat.
+/// Over a sphere of that radius; 0 = flat.
 LineOfSightAnswer line_of_sight_answer(
     const visuals::terrain::GroundSamples& ground, const glm::dvec3& from_m, const glm::dvec3& to_m, double radius_m);
 
-/// Straight between the ends where they are drawn.
+/// Over the drawn mesh, with both ends lowered as the mesh is.
 LineOfSightAnswer drawn_line_of_sight(const DrawnMesh& drawn, const glm::dvec3& from_m, const glm::dvec3& to_m);
 
 /// CSV, or one JSON object with "points" and "sight".

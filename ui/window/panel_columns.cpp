@@ -3,17 +3,13 @@
 #include "sim/base/text_file.h"
 
 #include <glm/common.hpp>
+#include <imgui.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
 #include <fmt/format.h>
-#include <functional>
-#include <numeric>
-#include <optional>
-#include <span>
-#include <utility>
 #include <vector>
 
 namespace octant::ui::window {
@@ -63,7 +59,7 @@ PanelLayout layout_from(std::string_view text) {
 
 namespace {
 
-enum class Column { Left, MiddleColumn, Right };
+enum Column : std::size_t { left_column, middle_column, right_column };
 
 struct KnownPanel {
     std::string_view title;
@@ -71,16 +67,15 @@ struct KnownPanel {
     Column column;
 };
 
-/// From top to bottom.
-constexpr std::array known_panels{KnownPanel{"Flight", &OpenPanels::flight, Column::Left},
-    KnownPanel{"Frame times", &OpenPanels::timing, Column::Left}, KnownPanel{"Scene", &OpenPanels::scene, Column::Left},
-    KnownPanel{"Terrain", &OpenPanels::terrain, Column::Right},
-    KnownPanel{"Draw order", &OpenPanels::draw_order, Column::Right},
-    KnownPanel{"Aircraft", &OpenPanels::aircraft, Column::Right},
-    KnownPanel{"Settings", &OpenPanels::settings, Column::Right},
-    KnownPanel{"Leave?", &OpenPanels::leave_question, Column::MiddleColumn},
-    KnownPanel{"Keys", &OpenPanels::help, Column::MiddleColumn},
-    KnownPanel{"First steps", &OpenPanels::first_steps, Column::MiddleColumn}};
+constexpr std::array known_panels{KnownPanel{"Flight", &OpenPanels::flight, left_column},
+    KnownPanel{"Frame times", &OpenPanels::timing, left_column}, KnownPanel{"Scene", &OpenPanels::scene, left_column},
+    KnownPanel{"Terrain", &OpenPanels::terrain, right_column},
+    KnownPanel{"Draw order", &OpenPanels::draw_order, right_column},
+    KnownPanel{"Aircraft", &OpenPanels::aircraft, right_column},
+    KnownPanel{"Settings", &OpenPanels::settings, right_column},
+    KnownPanel{"Leave?", &OpenPanels::leave_question, middle_column},
+    KnownPanel{"Keys", &OpenPanels::help, middle_column},
+    KnownPanel{"First steps", &OpenPanels::first_steps, middle_column}};
 
 constexpr float edge = 8.0F;
 constexpr float gap_px = 6.0F;
@@ -88,17 +83,13 @@ constexpr float side_width = 330.0F;
 /// A side column takes no more of the window than this.
 constexpr float max_of_window = 0.35F;
 constexpr float max_middle_width = 620.0F;
-constexpr float first_height = 420.0F;
 /// Room for a title and a line.
 constexpr float min_height = 48.0F;
-/// Closer than this is where it was put: places are rounded to whole units.
-constexpr float rect_tolerance = 1.0F;
+/// A window that is closer than this to its place was not moved: ImGui rounds positions to whole units.
+constexpr float tolerance = 1.0F;
 
-bool is_near(const PanelRect& a, const PanelRect& b) {
-    const auto near = [](const glm::vec2& one, const glm::vec2& other) {
-        return std::abs(one.x - other.x) <= rect_tolerance && std::abs(one.y - other.y) <= rect_tolerance;
-    };
-    return near(a.at, b.at) && near(a.size, b.size);
+bool is_near(const glm::vec2& a, const glm::vec2& b) {
+    return std::abs(a.x - b.x) <= tolerance && std::abs(a.y - b.y) <= tolerance;
 }
 
 /// Brings a chosen place into the window, which may be smaller than when it was chosen.
@@ -108,109 +99,83 @@ glm::vec2 clamped(const glm::vec2& at, const PanelArea& area) {
     return glm::clamp(at, glm::min(glm::vec2(seen - side_width, 0.0F) * area.scale, most), most);
 }
 
-/// Shares `area` among panels: those that want less than an even share get what they want.
-std::vector<float> shrink_to_fit(std::vector<float> wanted_heights, float area) {
-    std::vector<std::size_t> by_size(wanted_heights.size());
-    std::iota(by_size.begin(), by_size.end(), std::size_t{0});
-    std::ranges::sort(by_size, {}, [&](std::size_t i) { return wanted_heights[i]; });
-    float left = area;
-    for (std::size_t rank = 0; rank < by_size.size(); ++rank) {
-        float& height = wanted_heights[by_size[rank]];
-        const float share = left / static_cast<float>(by_size.size() - rank);
-        height = std::floor(std::max(min_height, std::min(height, share)));
-        left -= height;
-    }
-    return wanted_heights;
-}
-
-/// A column of the window: its left edge, width, top and bottom.
-struct ColumnRect {
-    float left = 0.0F;
-    float width = 0.0F;
-    float top = 0.0F;
-    float bottom = 0.0F;
-};
-
-ColumnRect column_rect(Column column, const PanelArea& area, bool left_open, bool right_open) {
-    const float border = edge * area.scale;
-    const float side = std::floor(std::min(side_width * area.scale, max_of_window * area.size.x));
-    ColumnRect strip{border, side, border, area.size.y - border};
-    if (column == Column::Right) {
-        strip.left = area.size.x - border - side;
-        strip.bottom -= area.inset.y;
-    } else if (column == Column::MiddleColumn) {
-        const float from = border + (left_open ? side + gap_px * area.scale : 0.0F);
-        const float right = right_open ? side + gap_px * area.scale : 0.0F;
-        const float to = area.size.x - border - std::max(right, area.inset.x);
-        strip.width = std::floor(std::min(to - from, max_middle_width * area.scale));
-        strip.left = std::floor(std::clamp(0.5F * (area.size.x - strip.width), from, std::max(from, to - strip.width)));
-        strip.top += area.status_height;
-    }
-    return strip;
-}
-
 } // namespace
 
-PanelColumns::PanelPlacement& PanelColumns::placement_of(std::string_view title) {
-    const auto found = placements_.find(title);
-    if (found != placements_.end()) { return found->second; }
-    PanelPlacement place;
-    place.rect = {glm::vec2(edge), {side_width, first_height}};
-    place.wanted_height = first_height;
-    return placements_.emplace(std::string(title), place).first->second;
+PanelColumns::FreeColumn PanelColumns::column_of(std::size_t column, bool left_open, bool right_open) const {
+    const float border = edge * area_.scale;
+    const float side = std::floor(std::min(side_width * area_.scale, max_of_window * area_.size.x));
+    FreeColumn free{border, side, border, area_.size.y - border, 0};
+    if (column == right_column) {
+        free.left = area_.size.x - border - side;
+        free.bottom -= area_.inset.y;
+    } else if (column == middle_column) {
+        const float from = border + (left_open ? side + gap_px * area_.scale : 0.0F);
+        const float right = right_open ? side + gap_px * area_.scale : 0.0F;
+        const float to = area_.size.x - border - std::max(right, area_.inset.x);
+        free.width = std::floor(std::min(to - from, max_middle_width * area_.scale));
+        free.left = std::floor(std::clamp(0.5F * (area_.size.x - free.width), from, std::max(from, to - free.width)));
+        free.top += area_.status_height;
+    }
+    return free;
 }
 
 void PanelColumns::lay_out(const OpenPanels& open, const PanelArea& area) {
-    std::array<std::vector<PanelPlacement*>, 3> columns;
+    area_ = area;
+    std::array<int, 3> panels{};
     for (const KnownPanel& panel : known_panels) {
-        PanelPlacement& place = placement_of(panel.title);
-        const bool asks = panel.open == &OpenPanels::leave_question;
-        if (!(open.*panel.open) || !(open.shown || asks)) {
-            place.is_new = true;
-        } else if (place.user_placed) {
-            const glm::vec2 at = clamped(place.rect.at, area);
-            place.is_new = place.is_new || at != place.rect.at;
-            place.rect.at = at;
-        } else {
-            columns[static_cast<std::size_t>(panel.column)].push_back(&place);
-        }
+        const bool is_shown = open.*panel.open && (open.shown || panel.open == &OpenPanels::leave_question);
+        const auto place = placements_.find(panel.title);
+        if (is_shown && (place == placements_.end() || !place->second.user_placed)) { ++panels[panel.column]; }
     }
-    for (const Column column : {Column::Left, Column::MiddleColumn, Column::Right}) {
-        const auto& placements = columns[static_cast<std::size_t>(column)];
-        const ColumnRect strip = column_rect(column, area, !columns.front().empty(), !columns.back().empty());
-        if (column == Column::MiddleColumn) { middle_ = {strip.left, strip.width}; }
-        std::vector<float> heights;
-        for (const PanelPlacement* const place : placements) { heights.push_back(place->wanted_height); }
-        const float between = gap_px * area.scale;
-        const float gaps = between * static_cast<float>(std::max<std::size_t>(placements.size(), 1) - 1);
-        heights = shrink_to_fit(std::move(heights), strip.bottom - strip.top - gaps);
-        // What the middle shows stands at its bottom, below the aircraft.
-        float y = strip.top;
-        const float all = std::accumulate(heights.begin(), heights.end(), gaps);
-        if (column == Column::MiddleColumn) { y = std::max(y, strip.bottom - all); }
-        for (std::size_t i = 0; i < placements.size(); ++i) {
-            const PanelRect rect{{strip.left, std::floor(y)}, {strip.width, heights[i]}};
-            placements[i]->is_new = placements[i]->is_new || !is_near(rect, placements[i]->rect);
-            placements[i]->rect = rect;
-            y += heights[i] + between;
-        }
+    for (std::size_t i = 0; i < columns_.size(); ++i) {
+        columns_[i] = column_of(i, panels[left_column] > 0, panels[right_column] > 0);
+        columns_[i].panels = panels[i];
     }
+    middle_ = {columns_[middle_column].left, columns_[middle_column].width};
 }
 
-std::optional<PanelRect> PanelColumns::take_new_rect(std::string_view title) {
-    PanelPlacement& place = placement_of(title);
-    return place.is_new ? std::optional(place.rect) : std::nullopt;
+/// Tells ImGui where the next window is: below those placed before it, or above them in the middle, which is filled
+/// from its bottom. ImGui finds its height, at most an even share of what is left.
+void PanelColumns::place_in_column(std::size_t column, PanelPlacement& place) {
+    const FreeColumn& free = columns_[column];
+    const auto panels = static_cast<float>(std::max(free.panels, 1));
+    const float gaps = gap_px * area_.scale * (panels - 1.0F);
+    const float share = std::max(min_height, std::floor((free.bottom - free.top - gaps) / panels));
+    const float height = std::min(place.rect.size.y, share);
+    const glm::vec2 at(free.left, std::floor(column == middle_column ? free.bottom - height : free.top));
+    if (place.is_new || !is_near(at, place.rect.at)) {
+        ImGui::SetNextWindowPos({at.x, at.y});
+        place.rect.at = at;
+    }
+    ImGui::SetNextWindowSizeConstraints({free.width, min_height}, {free.width, share});
+    ImGui::SetNextWindowSize({free.width, 0.0F});
 }
 
-void PanelColumns::report_rect(std::string_view title, const PanelRect& rect) {
-    PanelPlacement& place = placement_of(title);
-    if (!place.is_new && !is_near(rect, place.rect)) { place.user_placed = true; }
-    if (place.user_placed) { place.rect = rect; }
+bool PanelColumns::begin_panel(const char* title, bool& open) {
+    const auto known = std::ranges::find(known_panels, title, &KnownPanel::title);
+    const std::size_t column = known == known_panels.end() ? middle_column : known->column;
+    PanelPlacement& place = placements_[title];
+    if (!place.user_placed) {
+        place_in_column(column, place);
+    } else if (const glm::vec2 at = clamped(place.rect.at, area_); place.is_new || at != place.rect.at) {
+        place.rect.at = at;
+        ImGui::SetNextWindowPos({at.x, at.y});
+        ImGui::SetNextWindowSize({place.rect.size.x, place.rect.size.y});
+    }
+    const bool seen = ImGui::Begin(title, &open,
+        ImGuiWindowFlags_NoCollapse | (place.user_placed ? ImGuiWindowFlags_None : ImGuiWindowFlags_NoResize));
+    const PanelRect rect{
+        {ImGui::GetWindowPos().x, ImGui::GetWindowPos().y}, {ImGui::GetWindowSize().x, ImGui::GetWindowSize().y}};
+    if (!place.user_placed) {
+        FreeColumn& free = columns_[column];
+        const float used = rect.size.y + gap_px * area_.scale;
+        (column == middle_column ? free.bottom : free.top) += column == middle_column ? -used : used;
+        --free.panels;
+        place.user_placed = !is_near(rect.at, place.rect.at);
+    }
+    place.rect = rect;
     place.is_new = false;
-}
-
-void PanelColumns::report_height(std::string_view title, float height) {
-    placement_of(title).wanted_height = std::ceil(height);
+    return seen;
 }
 
 void PanelColumns::reset_layout() {
@@ -220,23 +185,18 @@ void PanelColumns::reset_layout() {
     }
 }
 
-std::map<std::string, PanelRect, std::less<>> PanelColumns::user_placed() const {
-    std::map<std::string, PanelRect, std::less<>> placements;
+PanelLayout PanelColumns::user_placed() const {
+    PanelLayout layout;
     for (const auto& [title, place] : placements_) {
-        if (place.user_placed) { placements.emplace(title, place.rect); }
+        if (place.user_placed) { layout.emplace(title, place.rect); }
     }
-    return placements;
+    return layout;
 }
 
-void PanelColumns::restore_user_placed(const std::map<std::string, PanelRect, std::less<>>& placements) {
+void PanelColumns::restore_user_placed(const PanelLayout& layout) {
     for (const KnownPanel& panel : known_panels) {
-        const auto found = placements.find(panel.title);
-        if (found != placements.end()) {
-            PanelPlacement& place = placement_of(panel.title);
-            place.rect = found->second;
-            place.user_placed = true;
-            place.is_new = true;
-        }
+        const auto found = layout.find(panel.title);
+        if (found != layout.end()) { placements_[std::string(panel.title)] = {found->second, true, true}; }
     }
 }
 

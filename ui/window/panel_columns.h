@@ -2,6 +2,8 @@
 
 #include <glm/vec2.hpp>
 
+#include <array>
+#include <cstddef>
 #include <functional>
 #include <map>
 #include <optional>
@@ -63,26 +65,20 @@ struct MiddleColumn {
     float width = 0.0F;
 };
 
-/// Lays out the panels. Open panels are stacked in two columns at the sides of the window. Each is as high as its
-/// content, or less if they do not all fit. Help and questions are in the middle. A panel that the user moves or
-/// resizes keeps that position.
+/// Places the panels. Open panels are stacked in two columns at the sides of the window; Dear ImGui makes each as high
+/// as its content, or less if they do not all fit. Help and questions are at the bottom of the middle. A panel that the
+/// user moves keeps its position and can then be resized.
 class PanelColumns {
 public:
-    /// Computes the positions of all open panels for the next frame, without overlap.
+    /// Begins a frame: computes the columns and how many panels share each.
     void lay_out(const OpenPanels& open, const PanelArea& area);
 
     /// Returns the part between the open columns; nothing before lay_out().
     std::optional<MiddleColumn> middle() const { return middle_; }
 
-    /// Returns the rectangle to which the panel must be moved now; nothing if it is there already or the user placed
-    /// it.
-    std::optional<PanelRect> take_new_rect(std::string_view title);
-
-    /// Records the rectangle of a panel in this frame.
-    void report_rect(std::string_view title, const PanelRect& rect);
-
-    /// Records the height that a panel needs to show all its content.
-    void report_height(std::string_view title, float height);
+    /// Begins the ImGui window of a panel at its place; ImGui::End() must follow. The cross in its title sets `open` to
+    /// false. Returns whether any part of it is visible. Panels of a column are placed in the order of the calls.
+    bool begin_panel(const char* title, bool& open);
 
     /// Moves all panels back into their columns.
     void reset_layout();
@@ -95,15 +91,25 @@ public:
 
 private:
     struct PanelPlacement {
-        PanelRect rect;
+        PanelRect rect; ///< as the last frame showed it
         bool user_placed = false;
-        /// The window does not have `rect` yet.
-        bool is_new = true;
-        float wanted_height = 0.0F;
+        bool is_new = true; ///< the window does not have `rect` yet
     };
 
-    PanelPlacement& placement_of(std::string_view title);
+    /// What is left of a column for panels that are not placed yet.
+    struct FreeColumn {
+        float left = 0.0F;
+        float width = 0.0F;
+        float top = 0.0F;
+        float bottom = 0.0F;
+        int panels = 0;
+    };
 
+    FreeColumn column_of(std::size_t column, bool left_open, bool right_open) const;
+    void place_in_column(std::size_t column, PanelPlacement& place);
+
+    PanelArea area_;
+    std::array<FreeColumn, 3> columns_;
     std::map<std::string, PanelPlacement, std::less<>> placements_;
     std::optional<MiddleColumn> middle_;
 };

@@ -74,25 +74,14 @@ void stacked_bar(std::span<const BarPart> parts, double whole, const char* unit)
     }
 }
 
-Panel::Panel(const char* title, PanelColumns& columns, bool& open) : title_(title), columns_(columns) {
+Panel::Panel(const char* title, PanelColumns& columns, bool& open) {
     if (!open) { return; }
-    if (const auto rect = columns.take_new_rect(title)) {
-        ImGui::SetNextWindowPos({rect->at.x, rect->at.y});
-        ImGui::SetNextWindowSize({rect->size.x, rect->size.y});
-    }
     begun_ = true;
-    seen_ = ImGui::Begin(title, &open, ImGuiWindowFlags_NoCollapse);
-    const ImVec2 at = ImGui::GetWindowPos();
-    const ImVec2 size = ImGui::GetWindowSize();
-    columns.report_rect(title, {{at.x, at.y}, {size.x, size.y}});
+    seen_ = columns.begin_panel(title, open);
     ImGui::PushTextWrapPos();
 }
 
 Panel::~Panel() {
-    if (seen_) {
-        const ImGuiStyle& style = ImGui::GetStyle();
-        columns_.report_height(title_, ImGui::GetCursorPosY() - style.ItemSpacing.y + style.WindowPadding.y);
-    }
     if (begun_) {
         ImGui::PopTextWrapPos();
         ImGui::End();

@@ -76,7 +76,7 @@ inline const ImVec4 warning_colour{1.0F, 0.55F, 0.45F, 1.0F};
 constexpr float background_alpha = 0.82F;
 
 /// A panel. Its widgets are made while this object lives. The cross in its title closes it and sets `open` to false.
-/// Its position comes from `columns`, to which it reports its height.
+/// `columns` place it.
 class Panel {
 public:
     Panel(const char* title, PanelColumns& columns, bool& open);
@@ -90,8 +90,6 @@ public:
     bool is_seen() const { return seen_; }
 
 private:
-    const char* title_;
-    PanelColumns& columns_;
     bool begun_ = false;
     bool seen_ = false;
 };

@@ -5,6 +5,7 @@
 #include "sim/base/text_file.h"
 #include "ui/base/data_files.h"
 #include "ui/base/progress.h"
+#include "ui/base/stop_signals.h"
 #include "ui/flight/flight_recorder.h"
 #include "ui/flight/id_comparison.h"
 #include "ui/flight/renderer_choice.h"
@@ -147,6 +148,15 @@ void Viewer::restart_live_flight() {
         listener_->attach(*session_);
         state_.playback.playing = true;
     }
+}
+
+void Viewer::run(const std::optional<int>& frames, bool quiet) {
+    const base::StopSignals stop_signals;
+    int shown = 0;
+    while (run_frame() && !base::StopSignals::received()) {
+        if (frames && ++shown >= *frames) { break; }
+    }
+    if (const auto report = finish_recording()) { base::print_note(quiet, *report); }
 }
 
 bool Viewer::run_frame() {
@@ -560,7 +570,7 @@ void Viewer::toggle_full_screen() {
 void Viewer::start_live_recording(const fs::path& folder) {
     settings::RunSettings settings = world::with_absolute_paths(session_->settings());
     settings.drawing.context = settings::ContextKind::OsMesa;
-    live_recorder_.emplace(flight::RecordOptions{.folder = folder, .video = {}, .replay_of = {}, .batch_context = {}},
+    live_recorder_.emplace(flight::RecordOptions{.folder = folder, .video = {}, .replay_of = {}, .machine_sharing = {}},
         settings, *session_);
     listener_->start_packet_recording(folder);
     state_.recording = folder;
@@ -691,7 +701,9 @@ void Viewer::handle_file_requests(const ViewRequests& requests) {
             show_message(fmt::format("settings: {}", requests.save_settings->string()));
         }
         if (requests.load_settings) {
-            state_.next_settings = settings::read_settings(*requests.load_settings);
+            std::vector<std::string> notes;
+            state_.next_settings = settings::read_settings(*requests.load_settings, &notes);
+            for (const std::string& note : notes) { show_message(note); }
             state_.next_settings.drawing.context = settings::ContextKind::Window;
             fit_to_window();
         }

@@ -71,6 +71,10 @@ public:
     /// Throws Error (driver, disk full).
     bool run_frame();
 
+    /// Shows frames until the window is closed, a stop signal comes or `frames` are shown. Completes the recording, of
+    /// which a note says where it is, unless `quiet`.
+    void run(const std::optional<int>& frames, bool quiet);
+
     /// Ends the recording, if there is one, and returns the line that says where its report is. Throws Error.
     std::optional<std::string> finish_recording();
 

@@ -122,7 +122,7 @@ TEST_CASE("a CIGI host's entity types, parts, air, time and views are seen") {
     look_back(next(jet, 30.0F));
     CigiBench host;
     const tests::ProgramRun run = generate_for(host,
-        {"--step", "--entities", table.string(), "--size", "240x160", "--pictures", "1", "--frames",
+        {"--step", "--vehicles", table.string(), "--size", "240x160", "--pictures", "1", "--frames",
             std::to_string(script.size()), "--record", (folder / "seen").string()},
         [&] {
             CHECK(host.await([](const StartOfFrame&) { return true; }));

@@ -1,5 +1,7 @@
 #include "tests/ui/commands/command_checks.h"
 
+#include "sim/base/text_file.h"
+
 #include <catch2/catch.hpp>
 
 namespace octant::tests {
@@ -26,6 +28,14 @@ void check_refused(const std::string& command, std::vector<std::string> argument
     arguments.insert(arguments.begin(), command);
     arguments.emplace_back("--quiet");
     check_refusal(run_octant(arguments), expected);
+}
+
+void check_refusals(const std::string& command, const Refusals& refusals) {
+    for (const auto& [line, expected] : refusals) {
+        CAPTURE(command, line);
+        const std::vector<std::string_view> words = split_words(line);
+        check_refused(command, {words.begin(), words.end()}, expected);
+    }
 }
 
 } // namespace octant::tests

@@ -30,12 +30,12 @@ Program small_program() {
                 .commands = {{.name = "make", .summary = "makes", .options = {input, out}, .run = run}}}}};
 }
 
-std::string refusal_of(std::vector<std::string> words) {
+std::string refusal_of(std::vector<std::string> words, const Program& program = small_program()) {
     words.insert(words.begin(), "octant");
     std::vector<const char*> arguments;
     for (const std::string& word : words) { arguments.push_back(word.c_str()); }
     try {
-        parse_command_line(small_program(), static_cast<int>(arguments.size()), arguments.data());
+        parse_command_line(program, static_cast<int>(arguments.size()), arguments.data());
     } catch (const std::exception& fault) { return fault.what(); }
     return "accepted";
 }
@@ -99,4 +99,24 @@ TEST_CASE("a flag is set and unset by its value as by its names") {
 TEST_CASE("bytes of the command line that a terminal would obey are not handed on") {
     const std::string text = refusal_of({"fly", "\x1b[31m"});
     CHECK(text.find('\x1b') == std::string::npos);
+}
+
+TEST_CASE("a slip of the fingers finds the command that was meant, another word none") {
+    const auto meant = [](const std::string& word, const std::vector<std::string>& known) {
+        Program program{.name = "octant", .about = {}, .version = {}, .footer = {}, .commands = {}};
+        for (const std::string& name : known) { program.commands.push_back({.name = name, .summary = {}}); }
+        const std::string refusal = refusal_of({word}, program);
+        const std::size_t at = refusal.find("; perhaps ");
+        return at == std::string::npos ? "" : refusal.substr(at);
+    };
+    const std::vector<std::string> known{"frames", "frame-per-sample", "seconds", "size", "start", "rate"};
+    for (const std::string word : {"frams", "frmaes", "-frames"}) {
+        CHECK(meant(word, known) == "; perhaps frames is meant");
+    }
+    CHECK(meant("sec", known) == "; perhaps seconds is meant");
+    CHECK(meant("starts", known) == "; perhaps start is meant");
+    for (const std::string& word : {std::string("video"), std::string(), std::string(100'000, 'a')}) {
+        CHECK(meant(word, known).empty());
+    }
+    CHECK(meant("tear", {"near", "fear"}).empty()); // equally near
 }

@@ -88,8 +88,6 @@ void make_input(const std::string& option, const fs::path& file) {
         return;
     } else if (option == "--eye-points") {
         write_file(file, "map,0,0,500,30,-10\n");
-    } else if (option == "--points") {
-        write_file(file, "0,0\n100,200,900\n");
     } else if (file.native().ends_with('/')) {
         fs::create_directories(file);
         fs::copy_file(seed_folder() / "seed.tif", file / "seed.tif");
@@ -138,9 +136,9 @@ CommandLine shortened(CommandLine line) {
     const std::string command = line.front() == "terrain" && line.size() > 1 ? "terrain " + line[1] : line.front();
     // Large enough for the paths that fly over them.
     static const std::map<std::string, std::vector<std::pair<std::string, std::string>>> quick = {
-        {"fly", {{"--frames", "12"}, {"--size", "64x36"}}}, {"terrain make", {{"--size", "129"}, {"--terrain-spacing", "160"}}},
-        {"terrain error", {{"--size", "64x36"}}}, {"terrain check", {{"--views", "2"}}},
-        {"mesh-error", {{"--samples", "1000"}}}};
+        {"fly", {{"--frames", "12"}, {"--size", "64x36"}}},
+        {"terrain make", {{"--size", "129"}, {"--terrain-spacing", "160"}}}, {"terrain error", {{"--size", "64x36"}}},
+        {"terrain check", {{"--views", "2"}}}, {"mesh-error", {{"--samples", "1000"}}}};
     const auto found = quick.find(command);
     if (found != quick.end() && !has(line, "--replay")) {
         for (const auto& [name, word] : found->second) { set_option(line, name, word); }

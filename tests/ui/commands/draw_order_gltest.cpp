@@ -33,10 +33,6 @@ tests::PrintedJson order_figures(const tests::ProgramRun& run) {
     return tests::PrintedJson(run.out);
 }
 
-void check_order_refused(const std::vector<std::string>& arguments, const std::string& expected) {
-    tests::check_refusal(draw_order(arguments), expected);
-}
-
 /// Two rectangles that pass through one another, each with a back.
 constexpr std::string_view crossing_plates = R"(v -1 -1 0
 v 1 -1 0
@@ -164,28 +160,28 @@ TEST_CASE("rays alone find the file order of a missing cell") {
 }
 
 TEST_CASE("draw-order refuses wrong input in one line with exit code 2") {
-    check_order_refused({}, "model");
-    check_order_refused({"f16"}, "model: expected f15, 500md, f15-detailed, 500md-detailed, concave, torus or an OBJ "
-                                 "file, got 'f16'");
-    check_order_refused({"/nowhere/a.obj"}, "/nowhere/a.obj: expected a file, found none");
+    tests::check_refusals("draw-order",
+        {{"", "model"},
+            {"f16",
+                "model: expected f15, 500md, f15-detailed, 500md-detailed, concave, torus or an OBJ file, got 'f16'"},
+            {"/nowhere/a.obj", "/nowhere/a.obj: expected a file, found none"}});
     write_file(order_file("empty.obj"), "");
-    check_order_refused({order_file("empty.obj")}, "empty.obj");
-    check_order_refused({"f15", "--method", "magic"}, "--method: expected one of paper, exact");
-    check_order_refused({"f15", "--min-distance", "nan"}, "--min-distance");
-    check_order_refused({"f15", "--rays", "-1"}, "--rays");
-    check_order_refused({"f15", "--export", "/nowhere/x.txt"}, "/nowhere/x.txt");
-    check_order_refused({"f15", "--export-model", order_file("x.txt")}, "ends in .obj");
-    check_order_refused({"f15", "--export", order_file("x.obj"), "--export-model", order_file("x.obj")},
-        "expected another file than --export-model");
+    tests::check_refusals("draw-order",
+        {{order_file("empty.obj"), "empty.obj"}, {"f15 --method magic", "--method: expected one of paper, exact"},
+            {"f15 --min-distance nan", "--min-distance"}, {"f15 --rays -1", "--rays"},
+            {"f15 --export /nowhere/x.txt", "/nowhere/x.txt"},
+            {"f15 --export-model " + order_file("x.txt"), "ends in .obj"},
+            {"f15 --export " + order_file("x.obj") + " --export-model " + order_file("x.obj"),
+                "expected another file than --export-model"}});
     CHECK_FALSE(std::filesystem::exists(order_cache_folder() / "x.obj"));
-    check_order_refused({"f15", "--check", "/nowhere/x.txt"}, "/nowhere/x.txt: expected a file");
+    tests::check_refusals("draw-order", {{"f15 --check /nowhere/x.txt", "/nowhere/x.txt: expected a file"}});
     write_file(order_file("wrong.txt"), "draworder 1\nfaces 43\ncell ++- order 0 43\n");
-    check_order_refused({"f15", "--check", order_file("wrong.txt")},
-        "wrong.txt:3: expected a polygon of the model (0 to 42), got '43'");
+    tests::check_refusals("draw-order", {{"f15 --check " + order_file("wrong.txt"),
+                                            "wrong.txt:3: expected a polygon of the model (0 to 42), got '43'"}});
     write_file(order_file("plates.obj"), crossing_plates);
-    check_order_refused({order_file("plates.obj"), "--axes", "up,up,up"}, "axes: expected");
-    check_order_refused(
-        {order_file("plates.obj"), "--export-model", order_file("plates.obj")}, "expected another file than the model");
+    tests::check_refusals("draw-order", {{order_file("plates.obj") + " --axes up,up,up", "axes: expected"},
+                                            {order_file("plates.obj") + " --export-model " + order_file("plates.obj"),
+                                                "expected another file than the model"}});
     CHECK_FALSE(std::filesystem::exists(order_cache_folder() / "x.txt"));
 }
 

@@ -1,4 +1,4 @@
-#include "ui/command_line/manual.h"
+#include "tests/ui/commands/command_line.h"
 #include "ui/commands/commands.h"
 
 #include <catch2/catch.hpp>
@@ -8,9 +8,10 @@ using Catch::Contains;
 
 TEST_CASE("the manual page has every command and option, and no line that man takes for a request") {
     const command_line::Program program = commands::octant_program();
-    const std::string page = command_line::man_page(program);
+    const std::string page = octant::tests::run_octant({"manual", "man"}).out;
     CHECK_THAT(page, Catch::StartsWith(".TH OCTANT 1 "));
     for (const command_line::Command& command : program.commands) {
+        if (command.name == "manual") { continue; }
         CAPTURE(command.name);
         const std::size_t at = page.find(".SS \"octant " + command.name.substr(0, 4));
         CHECK(at != std::string::npos);
@@ -22,7 +23,7 @@ TEST_CASE("the manual page has every command and option, and no line that man ta
 
 TEST_CASE("completions offer the options of the command that stands there") {
     const command_line::Program program = commands::octant_program();
-    const std::string text = command_line::bash_completion(program);
+    const std::string text = octant::tests::run_octant({"manual", "bash"}).out;
     const std::size_t report = text.find("    'report') words=\"");
     REQUIRE(report != std::string::npos);
     const std::string line = text.substr(report, text.find('\n', report) - report);
@@ -36,5 +37,5 @@ TEST_CASE("completions offer the options of the command that stands there") {
         CHECK(by_other == !command.program.empty());
     }
     CHECK_THAT(text, Contains(" --sky --no-sky"));
-    CHECK_THAT(command_line::zsh_completion(program), Catch::StartsWith("#compdef octant\n"));
+    CHECK_THAT(octant::tests::run_octant({"manual", "zsh"}).out, Catch::StartsWith("#compdef octant\n"));
 }

@@ -41,10 +41,6 @@ tests::PrintedJson error_figures(std::vector<std::string> arguments) {
     return found.without({"read_ms", "measure_ms", "threads"});
 }
 
-void check_error_refused(const std::vector<std::string>& arguments, const std::string& expected) {
-    tests::check_refusal(mesh_error(arguments), expected);
-}
-
 /// 4 by 3, so that its diagonal is 5.
 constexpr std::string_view floor_obj = "v 0 0 0\nv 4 0 0\nv 4 3 0\nv 0 3 0\nf 1 2 3\nf 1 3 4\n";
 
@@ -109,10 +105,8 @@ TEST_CASE("without --json the report is a table") {
 TEST_CASE("files without a surface and wrong options are refused in one line") {
     const std::string a = error_file_with("floor.obj", floor_obj);
     const std::string points = error_file_with("points.obj", "v 0 0 0\nv 1 0 0\n");
-    check_error_refused({a, points}, "points.obj");
-    check_error_refused({a, (error_folder() / "none.obj").string()}, "none.obj");
-    check_error_refused({a, a, "--threads", "0"}, "--threads");
-    check_error_refused({a, a, "--samples", "0"}, "--samples");
-    check_error_refused({a, a, "--tightness", "1"}, "--tightness");
-    check_error_refused({a}, "B");
+    tests::check_refusals(
+        "mesh-error", {{a + " " + points, "points.obj"}, {a + " " + (error_folder() / "none.obj").string(), "none.obj"},
+                          {a + " " + a + " --threads 0", "--threads"}, {a + " " + a + " --samples 0", "--samples"},
+                          {a + " " + a + " --tightness 1", "--tightness"}, {a, "B"}});
 }

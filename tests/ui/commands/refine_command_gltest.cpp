@@ -103,10 +103,6 @@ tests::PrintedJson refine(const std::vector<std::string>& arguments) {
     return tests::results_of_run("refine", arguments);
 }
 
-void check_refine_refused(const std::vector<std::string>& arguments, const std::string& expected) {
-    tests::check_refused("refine", arguments, expected);
-}
-
 } // namespace
 
 TEST_CASE("a saved progressive mesh refined everywhere is the original, face for face") {
@@ -179,19 +175,19 @@ TEST_CASE("the partition is the original mesh with as many colours as there are 
 
 TEST_CASE("refine refuses wrong input in one line with exit code 2") {
     write_sheet(refine_file("sheet.obj"));
-    check_refine_refused({"/nowhere/a.obj"}, "/nowhere/a.obj");
-    check_refine_refused({"/nowhere/a.pm"}, "/nowhere/a.pm: expected a file, found none");
+    tests::check_refusals("refine",
+        {{"/nowhere/a.obj", "/nowhere/a.obj"}, {"/nowhere/a.pm", "/nowhere/a.pm: expected a file, found none"}});
     write_file(refine_file("bad.pm"), "nothing");
-    check_refine_refused({refine_file("bad.pm")}, "bad.pm: at byte 0: expected a progressive mesh");
-    check_refine_refused({refine_file("sheet.obj"), "--rule", "magic"}, "--rule");
-    check_refine_refused({refine_file("sheet.obj"), "--region", "box", "0", "0", "0", "1"}, "expected sphere");
-    check_refine_refused({refine_file("sheet.obj"), "--region", "sphere", "nan", "0", "0", "1"}, "--region");
-    check_refine_refused({refine_file("sheet.obj"), "--error-px", "1"}, "--eye");
-    check_refine_refused({refine_file("sheet.obj"), "--error-px", "1", "--eye", "0,0", "--look", "0,0,0"},
-        "--eye: expected X,Y,Z, got '0,0'");
-    check_refine_refused({refine_file("sheet.obj"), "--save", refine_file("x.obj")}, "ends in .pm");
-    check_refine_refused({refine_file("sheet.obj"), "--out", refine_file("x.txt")}, "--out: expected a mesh file");
-    check_refine_refused({refine_file("sheet.obj"), "--save", "/nowhere/x.pm", "--quiet"}, "/nowhere/x.pm");
+    tests::check_refusals("refine",
+        {{refine_file("bad.pm"), "bad.pm: at byte 0: expected a progressive mesh"},
+            {refine_file("sheet.obj") + " --rule magic", "--rule"},
+            {refine_file("sheet.obj") + " --region box 0 0 0 1", "expected sphere"},
+            {refine_file("sheet.obj") + " --region sphere nan 0 0 1", "--region"},
+            {refine_file("sheet.obj") + " --error-px 1", "--eye"},
+            {refine_file("sheet.obj") + " --error-px 1 --eye 0,0 --look 0,0,0", "--eye: expected X,Y,Z, got '0,0'"},
+            {refine_file("sheet.obj") + " --save " + refine_file("x.obj"), "ends in .pm"},
+            {refine_file("sheet.obj") + " --out " + refine_file("x.txt"), "--out: expected a mesh file"},
+            {refine_file("sheet.obj") + " --save /nowhere/x.pm --quiet", "/nowhere/x.pm"}});
 }
 
 TEST_CASE("the study of refinement writes its tables") {

@@ -1,3 +1,6 @@
+#include "sim/base/output_file.h"
+#include "sim/base/text_file.h"
+#include "tests/scratch.h"
 #include "tests/ui/commands/command_checks.h"
 #include "tests/ui/commands/command_line.h"
 #include "ui/commands/commands.h"
@@ -61,7 +64,7 @@ TEST_CASE("help of fly, view and listen shows what most people use on sixty line
             if (!line.starts_with("  octant") && line.find(' ', 30) != std::string::npos) { CHECK(line.size() <= 80); }
             at = end + 1;
         }
-        CHECK(all.find("--swept") == std::string::npos);
+        CHECK(all.find("--machine-sharing") == std::string::npos);
         CHECK(all.find("--detail") == std::string::npos);
     }
 }
@@ -77,7 +80,28 @@ TEST_CASE("old names of options are read, with one note each that names the new 
         INFO(run.err);
         CHECK(run.err.find(note) != std::string::npos);
     }
-    tests::check_refused("fly", {"--terrain", "/nowhere.tif", "--no-roads"}, "/nowhere.tif");
+    tests::check_refused("fly", {"--terrain", "/nowhere.tif", "--no-roads", "--order-method", "tree"}, "/nowhere.tif");
+}
+
+TEST_CASE("an old name in a settings file is told once, and not with --quiet") {
+    const std::string file = (tests::empty_folder("old-settings") / "settings.json").string();
+    write_file(file, "{\"order-method\": \"tree\", \"terrain\": \"/nowhere.tif\"}");
+    const auto run = tests::run_octant({"fly", "--settings", file});
+    CHECK(run.err.starts_with("note: order-method: 'tree' is the old name of exact\n"));
+    CHECK(tests::lines_in(run.err) == 2);
+    tests::check_refused("fly", {"--settings", file}, "/nowhere.tif");
+}
+
+TEST_CASE("all commands together have at most 130 options") {
+    const std::string all = tests::run_octant({"--help-all"}).out;
+    std::set<std::string> names;
+    for (const std::string_view line : split_lines(all)) {
+        std::string_view name = split_words(line).empty() ? "" : split_words(line).front();
+        if (name.starts_with("--[no-]")) { name.remove_prefix(5); }
+        if (line.starts_with("  --")) { names.emplace(name.substr(name.find_first_not_of('-'))); }
+    }
+    CHECK(names.size() > 100);
+    CHECK(names.size() <= 130);
 }
 
 TEST_CASE("a key of a family of options is read and refused as an option is") {

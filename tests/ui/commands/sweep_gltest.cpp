@@ -92,7 +92,7 @@ TEST_CASE("a sweep goes on past flights that fail, and tries them again") {
     write_file(searches / "jobs/letter.txt", "Dear all\n");
     tests::check_refused("sweep", {file, "--out", searches.string()}, "expected an empty folder or that of a sweep");
     CHECK_FALSE(fs::exists(searches / "runs"));
-    tests::check_refused("sweep", {file, "--out", (made / "out").string(), "--jobs", "2"}, "--batch share-cores");
+    tests::check_refused("sweep", {file, "--out", (made / "out").string(), "--batch", "jobs=2"}, "--batch share-cores");
     tests::check_refused(
         "sweep", {file, "--batch", "hosts=machines.txt"}, "--batch hosts: expected --on parallel beside it");
     tests::check_refused(

@@ -28,7 +28,7 @@ TEST_CASE("octant terrain mesh writes a PLY whose corners are the map's") {
     const std::string terrain = made_terrain_file(folder);
     const std::string ply = (folder / "mesh.ply").string();
     const ProgramRun run = run_octant({"terrain", "mesh", terrain, "--eye", "0,0,4000", "--look", "0,1,0", "--fov",
-        "120", "--triangles", "500", "--ascii", "--json", "--out", ply});
+        "120", "--triangles", "500", "--terrain-mesh", "ascii", "--json", "--out", ply});
     REQUIRE(run.exit_code == 0);
     const auto results = tests::PrintedJson(run.out);
     CHECK(results["triangles"].number() <= 500);
@@ -78,8 +78,8 @@ TEST_CASE("octant terrain query tells heights, heights above ground and what hid
     const std::string terrain = made_terrain_file(folder);
     const std::string points = (folder / "points.csv").string();
     write_file(points, "x,y,z\n0,0,3000\n5000,0\n");
-    const ProgramRun run = run_octant({"terrain", "query", terrain, "--at", "0,0", "--points", points, "--from",
-        "-1000,0,3500", "--to", "1000,0,0", "--json"});
+    const ProgramRun run = run_octant(
+        {"terrain", "query", terrain, "--at", "0,0", points, "--from", "-1000,0,3500", "--to", "1000,0,0", "--json"});
     REQUIRE(run.exit_code == 0);
     const auto answers = tests::PrintedJson(run.out);
     const double ground_m = answers["points"][0]["ground_m"].number();
@@ -94,7 +94,7 @@ TEST_CASE("octant terrain query tells heights, heights above ground and what hid
     CHECK(lines_in(drawn.out) == 2);
 
     write_file(points, "0,0\nnorth,0\n");
-    const ProgramRun wrong = run_octant({"terrain", "query", terrain, "--points", points});
+    const ProgramRun wrong = run_octant({"terrain", "query", terrain, "--at", points});
     CHECK(wrong.exit_code == 2);
     CHECK(wrong.err.find("points.csv:2: expected x,y or x,y,z") != std::string::npos);
 }

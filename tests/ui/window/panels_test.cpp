@@ -7,8 +7,11 @@
 #include "ui/window/setting_widgets.h"
 
 #include <catch2/catch.hpp>
+#include <glm/vector_relational.hpp>
 
 #include <array>
+#include <iterator>
+#include <map>
 #include <string>
 #include <string_view>
 #include <type_traits>
@@ -142,10 +145,14 @@ TEST_CASE("a panel draws where it is open and nothing where it is closed") {
     for (const Case& each : cases) {
         HeadlessGui gui;
         ViewState state;
+        const auto widgets = [&] {
+            state.columns.lay_out(state.open, {{1280, 720}});
+            each.panel(state);
+        };
         state.open.*each.open = false;
-        CHECK(gui.settled([&] { each.panel(state); }) == 0);
+        CHECK(gui.settled(widgets) == 0);
         state.open.*each.open = true;
-        CHECK(gui.settled([&] { each.panel(state); }) > 100);
+        CHECK(gui.settled(widgets) > 100);
         CHECK(state.open.*each.open);
     }
 }
@@ -211,12 +218,17 @@ TEST_CASE("the help names every key") {
 TEST_CASE("the first steps close by their button and the vsync box follows a click") {
     HeadlessGui gui;
     ViewState state;
+    const auto widgets = [&] {
+        state.columns.lay_out(state.open, {{1280, 720}});
+        first_steps_panel(state);
+        timing_panel(state);
+    };
     state.open.first_steps = true;
-    CHECK(gui.click("First steps", "Begin", [&] { ui::window::first_steps_panel(state); }));
+    CHECK(gui.click("First steps", "Begin", widgets));
     CHECK_FALSE(state.open.first_steps);
     state.open.timing = true;
     state.history.add(record_of(0, 10.0));
-    CHECK(gui.click("Frame times", "wait for the display (vsync)", [&] { ui::window::timing_panel(state); }));
+    CHECK(gui.click("Frame times", "wait for the display (vsync)", widgets));
     CHECK_FALSE(state.vsync);
 }
 
@@ -261,27 +273,38 @@ TEST_CASE("a pilot is told throttle, speed, height, climb, angle of attack and l
 
 namespace {
 
-constexpr std::array<std::string_view, 7> side_panels{
-    "Flight", "Frame times", "Scene", "Terrain", "Draw order", "Aircraft", "Settings"};
-constexpr std::array<std::string_view, 3> middle_panels{"Leave?", "Keys", "First steps"};
-
 OpenPanels all_open() { return {true, true, true, true, true, true, true, true, true, true, true}; }
 
-/// The places of panels that want so much, after the window has seen them once.
-std::vector<PanelRect> places_of(PanelColumns& columns, const PanelArea& area, float wanted_height) {
-    for (const std::string_view title : side_panels) { columns.report_height(title, wanted_height); }
-    for (const std::string_view title : middle_panels) { columns.report_height(title, wanted_height); }
-    columns.lay_out(all_open(), area);
-    std::vector<PanelRect> places;
-    const auto take = [&](std::string_view title) {
-        const auto rect = columns.take_new_rect(title);
-        REQUIRE(rect);
-        columns.report_rect(title, *rect);
-        places.push_back(*rect);
+using Rects = std::map<std::string, PanelRect>;
+
+/// Makes each open panel with a content of that height in ImGui windows until their places are settled.
+Rects settled_panels(
+    tests::HeadlessGui& gui, PanelColumns& columns, OpenPanels open, const PanelArea& area, float content_height) {
+    Rects rects;
+    const auto panel = [&](const char* title, bool& is_open) {
+        if (!is_open) { return; }
+        columns.begin_panel(title, is_open);
+        ImGui::Dummy({10.0F, content_height});
+        rects[title] = {
+            {ImGui::GetWindowPos().x, ImGui::GetWindowPos().y}, {ImGui::GetWindowSize().x, ImGui::GetWindowSize().y}};
+        ImGui::End();
     };
-    for (const std::string_view title : side_panels) { take(title); }
-    for (const std::string_view title : middle_panels) { take(title); }
-    return places;
+    const auto widgets = [&] {
+        columns.lay_out(open, area);
+        panel("Leave?", open.leave_question);
+        panel("Flight", open.flight);
+        panel("Frame times", open.timing);
+        panel("Terrain", open.terrain);
+        panel("Draw order", open.draw_order);
+        panel("Aircraft", open.aircraft);
+        panel("Scene", open.scene);
+        panel("Settings", open.settings);
+        panel("Keys", open.help);
+        panel("First steps", open.first_steps);
+    };
+    gui.settled(widgets);
+    gui.settled(widgets);
+    return rects;
 }
 
 bool overlap(const PanelRect& a, const PanelRect& b) {
@@ -293,26 +316,27 @@ bool overlap(const PanelRect& a, const PanelRect& b) {
 
 TEST_CASE("all panels at once lie in the window, none over another, and leave the middle free") {
     for (const glm::vec2& size : {glm::vec2(1280, 720), glm::vec2(800, 500), glm::vec2(1920, 1080)}) {
-        for (const float wanted_height : {60.0F, 300.0F, 2000.0F}) {
+        for (const float content_height : {20.0F, 260.0F, 2000.0F}) {
             for (const float inset : {0.0F, size.y / 3.0F}) {
-                CAPTURE(size.x, wanted_height, inset);
+                CAPTURE(size.x, content_height, inset);
+                tests::HeadlessGui gui(size.x, size.y);
                 PanelColumns columns;
-                const auto places =
-                    places_of(columns, {size, 1.0F, 40.0F, {inset * size.x / size.y, inset}}, wanted_height);
-                for (std::size_t i = 0; i < places.size(); ++i) {
-                    const PanelRect& place = places[i];
-                    CHECK(place.at.x >= 0.0F);
-                    CHECK(place.at.y >= 0.0F);
-                    CHECK(place.at.x + place.size.x <= size.x);
-                    CHECK(place.at.y + place.size.y <= size.y);
-                    CHECK(place.size.y <= wanted_height);
-                    CHECK(place.size.y >= 48.0F);
-                    for (std::size_t j = i + 1; j < places.size(); ++j) { CHECK_FALSE(overlap(place, places[j])); }
-                    if (i < side_panels.size()) {
-                        CHECK((place.at.x + place.size.x <= 0.4F * size.x || place.at.x >= 0.6F * size.x));
+                const glm::vec2 inset_size(inset * size.x / size.y, inset);
+                const PanelArea area{size, 1.0F, 40.0F, inset_size};
+                const Rects rects = settled_panels(gui, columns, all_open(), area, content_height);
+                REQUIRE(rects.size() == 10);
+                for (auto i = rects.begin(); i != rects.end(); ++i) {
+                    const auto& [title, rect] = *i;
+                    CAPTURE(title);
+                    CHECK(glm::all(glm::greaterThanEqual(rect.at, glm::vec2(0.0F))));
+                    CHECK(glm::all(glm::lessThanEqual(rect.at + rect.size, size)));
+                    CHECK(rect.size.y <= content_height + 60.0F);
+                    CHECK(rect.size.y >= 48.0F);
+                    for (auto j = std::next(i); j != rects.end(); ++j) { CHECK_FALSE(overlap(rect, j->second)); }
+                    if (title != "Leave?" && title != "Keys" && title != "First steps") {
+                        CHECK((rect.at.x + rect.size.x <= 0.4F * size.x || rect.at.x >= 0.6F * size.x));
                     }
-                    const glm::vec2 corner = size - glm::vec2(inset * size.x / size.y, inset);
-                    CHECK_FALSE(overlap(place, {corner, size - corner}));
+                    CHECK_FALSE(overlap(rect, {size - inset_size, inset_size}));
                 }
             }
         }
@@ -320,44 +344,34 @@ TEST_CASE("all panels at once lie in the window, none over another, and leave th
 }
 
 TEST_CASE("a panel is as high as what it shows where there is room for all") {
+    tests::HeadlessGui gui;
     PanelColumns columns;
-    columns.report_height("Flight", 310.0F);
-    columns.report_height("Frame times", 250.0F);
     OpenPanels open;
     open.timing = true;
-    columns.lay_out(open, {{1280, 720}});
-    CHECK(columns.take_new_rect("Flight")->size.y == 310.0F);
-    CHECK(columns.take_new_rect("Frame times")->size.y == 250.0F);
-    CHECK(columns.take_new_rect("Frame times")->at.y > columns.take_new_rect("Flight")->at.y + 310.0F);
+    const Rects rects = settled_panels(gui, columns, open, {{1280, 720}}, 250.0F);
+    CHECK(rects.at("Flight").size.y == Approx(285.0F).margin(15.0F));
+    CHECK(rects.at("Frame times").size.y == rects.at("Flight").size.y);
+    CHECK(rects.at("Frame times").at.y > rects.at("Flight").at.y + rects.at("Flight").size.y);
 }
 
 TEST_CASE("a panel that a person moves stays there until panels are put back") {
+    tests::HeadlessGui gui;
     PanelColumns columns;
     const PanelArea area{{1280, 720}};
-    const OpenPanels open;
-    columns.lay_out(open, area);
-    const PanelRect first = *columns.take_new_rect("Flight");
-    columns.report_rect("Flight", first);
-    columns.lay_out(open, area);
-    CHECK_FALSE(columns.take_new_rect("Flight"));
+    const PanelRect first = settled_panels(gui, columns, {}, area, 100.0F).at("Flight");
     CHECK(columns.user_placed().empty());
-    const PanelRect moved{{500, 300}, first.size};
-    columns.report_rect("Flight", moved);
-    columns.lay_out(open, area);
-    CHECK_FALSE(columns.take_new_rect("Flight"));
+    ImGui::SetWindowPos("Flight", {500.0F, 300.0F});
+    const PanelRect moved = settled_panels(gui, columns, {}, area, 100.0F).at("Flight");
+    CHECK(moved == PanelRect{{500, 300}, first.size});
     CHECK(columns.user_placed().at("Flight") == moved);
 
     PanelColumns next_run;
     next_run.restore_user_placed(layout_from(text_of_layout(columns.user_placed())));
-    next_run.lay_out(open, area);
-    CHECK(next_run.take_new_rect("Flight") == moved);
-    next_run.report_rect("Flight", moved);
-    next_run.lay_out(open, {{400, 200}});
-    CHECK(next_run.take_new_rect("Flight")->at.x < 400);
+    CHECK(settled_panels(gui, next_run, {}, area, 100.0F).at("Flight") == moved);
+    CHECK(settled_panels(gui, next_run, {}, {{400, 200}}, 100.0F).at("Flight").at.x < 400);
 
     columns.reset_layout();
-    columns.lay_out(open, area);
-    CHECK(columns.take_new_rect("Flight") == first);
+    CHECK(settled_panels(gui, columns, {}, area, 100.0F).at("Flight") == first);
 }
 
 TEST_CASE("of a layout file only lines of our own with numbers of a window count") {

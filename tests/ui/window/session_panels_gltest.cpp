@@ -101,7 +101,10 @@ TEST_CASE("the flight panel pauses, changes the view and asks for the rest") {
     Shown shown;
     ViewState& state = shown.state;
     HeadlessGui gui;
-    const auto widgets = [&] { ui::window::flight_panel(state, shown.session); };
+    const auto widgets = [&] {
+        state.columns.lay_out(state.open, {{1280, 720}});
+        ui::window::flight_panel(state, shown.session);
+    };
     CHECK(gui.click("Flight", "###play", widgets));
     CHECK_FALSE(state.playback.playing);
     CHECK(gui.click("Flight", "###play", widgets));

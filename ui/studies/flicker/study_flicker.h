@@ -1,7 +1,7 @@
 #pragma once
 
 #include "models/heights/import_options.h"
-#include "ui/base/study_output.h"
+#include "ui/base/output_options.h"
 
 #include <string>
 

@@ -314,7 +314,6 @@ std::vector<BenchResult> run_bench(const BenchOptions& options) {
 struct BenchCommand {
     BenchOptions options;
     bool formation = false;
-    bool json = false;
 };
 
 /// A scene that is harder than the usual ones: ten aircraft in a picture of two million pixels.
@@ -406,34 +405,36 @@ Option repeat_option(std::string name, std::string meaning, std::vector<std::str
 std::vector<Option> options_of(BenchCommand& bench) {
     BenchOptions& options = bench.options;
     settings::RunSettings& settings = options.settings;
-    std::vector<Option> table = {with_shown_default("[hills,canyon,background60; with --features: hills]",
-                                     list_option("--terrain", "NAME|FILE", "terrain; one scene for each; repeatable",
-                                         Arity::Repeatable, options.terrains)),
-        repeat_option("--aircraft", "aircraft in every scene; repeat for a formation", settings.path.aircraft),
-        value_option({"size", "WIDTHxHEIGHT", "picture size in pixels", 16, 8192}, settings.view.size_px),
-        with_shown_default("20000",
-            value_option({"triangles", "N", "ground triangle budget", 100, 10000000}, settings.ground.triangles)),
-        value_option({"renderer", "KIND", "raster or gl; auto: both in turn (with --features: raster)"},
-            settings.drawing.renderer),
-        value_option(
-            {"samples", "N", "samples per pixel [raster: 16, gl: 1]", 1, 16, sample_counts}, settings.view.samples),
-        value_option({"context", "KIND", "OpenGL context: osmesa or egl"}, settings.drawing.context),
-        value_option({"frames", "N", "number of timed frames of each scene [300; with --features: 30, about a minute]",
-                         1, 100000},
-            options.frames),
-        flag("--formation", "replace the scenes by ten F-15s over the canyon, 25,000 triangles, 1920x1080",
-            bench.formation),
-        flag("--near-detail", "draw procedural ground detail near the eye", settings.ground.near_detail),
-        flag("--scenery", "draw procedural trees and houses near the eye", settings.ground.scenery),
-        flag("--features",
-            "print the cost of each feature (near detail, scenery, sky, ...): render each scene with no feature, one "
-            "feature, an airfield, the defaults, and all features, alternating frame by frame",
-            options.features),
-        flag("--growth",
-            "ignore --triangles and render each scene with 20,000, 50,000, 100,000 and 200,000 ground triangles; "
-            "ms/1000 is the median time per 1,000 triangles",
-            options.triangle_counts),
-        json_option(bench.json), quiet_option(options.quiet)};
+    std::vector<Option> table = with_output_options(options,
+        {with_shown_default("[hills,canyon,background60; with --features: hills]",
+             list_option("--terrain", "NAME|FILE", "terrain; one scene for each; repeatable", Arity::Repeatable,
+                 options.terrains)),
+            repeat_option("--aircraft", "aircraft in every scene; repeat for a formation", settings.path.aircraft),
+            value_option({"size", "WIDTHxHEIGHT", "picture size in pixels", 16, 8192}, settings.view.size_px),
+            with_shown_default("20000",
+                value_option({"triangles", "N", "ground triangle budget", 100, 10000000}, settings.ground.triangles)),
+            value_option({"renderer", "KIND", "raster or gl; auto: both in turn (with --features: raster)"},
+                settings.drawing.renderer),
+            value_option(
+                {"samples", "N", "samples per pixel [raster: 16, gl: 1]", 1, 16, sample_counts}, settings.view.samples),
+            value_option({"context", "KIND", "OpenGL context: osmesa or egl"}, settings.drawing.context),
+            value_option(
+                {"frames", "N", "number of timed frames of each scene [300; with --features: 30, about a minute]", 1,
+                    100000},
+                options.frames),
+            flag("--formation", "replace the scenes by ten F-15s over the canyon, 25,000 triangles, 1920x1080",
+                bench.formation),
+            flag("--near-detail", "draw procedural ground detail near the eye", settings.ground.near_detail),
+            flag("--scenery", "draw procedural trees and houses near the eye", settings.ground.scenery),
+            flag("--features",
+                "print the cost of each feature (near detail, scenery, sky, ...): render each scene with no feature, "
+                "one "
+                "feature, an airfield, the defaults, and all features, alternating frame by frame",
+                options.features),
+            flag("--growth",
+                "ignore --triangles and render each scene with 20,000, 50,000, 100,000 and 200,000 ground triangles; "
+                "ms/1000 is the median time per 1,000 triangles",
+                options.triangle_counts)});
     add_file_options(table, settings.path);
     return table;
 }
@@ -451,7 +452,7 @@ Command bench_command() {
         .run = [bench] {
             if (bench->formation) { set_formation(bench->options); }
             const std::vector<BenchResult> results = run_bench(bench->options);
-            print_results(results, bench->json);
+            print_results(results, bench->options.json);
         }};
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "ui/base/output_options.h"
 #include "ui/command_line/command.h"
 #include "ui/report/table.h"
 #include "ui/settings/settings.h"
@@ -26,7 +27,7 @@ std::vector<BenchScene> feature_scenes(const BenchScene& scene);
 /// A scene with 20,000, 50,000, 100,000 and 200,000 triangles of ground.
 std::vector<BenchScene> triangle_count_scenes(const BenchScene& scene);
 
-struct BenchOptions {
+struct BenchOptions : base::OutputOptions {
     settings::RunSettings settings =
         settings::measurement_settings(); ///< size, samples, triangles, aircraft and drawing are used
     /// One scene each, and each renderer if none is asked for; none: the usual ones.
@@ -34,7 +35,6 @@ struct BenchOptions {
     std::optional<int> frames;    ///< timed, of each scene; else as many as are usual
     bool features = false;        ///< each scene with and without each feature of the picture
     bool triangle_counts = false; ///< each scene with 20,000 to 200,000 triangles of ground
-    bool quiet = false;
 };
 
 /// Frames that are timed of each scene: by default few where there are many scenes.

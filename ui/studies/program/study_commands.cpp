@@ -1,4 +1,4 @@
-#include "ui/base/study_output.h"
+#include "ui/base/output_options.h"
 #include "ui/base/version.h"
 #include "ui/command_line/manual.h"
 #include "ui/command_line/setting_option.h"
@@ -28,9 +28,7 @@ namespace {
 std::vector<Option> study_options(base::StudyOutput& output, std::vector<Option> own) {
     own.insert(own.begin(), required(text_option("--out", "DIR",
                                 "output folder for tables (CSV, Markdown), figures and pictures", output.out)));
-    own.push_back(json_option(output.json));
-    own.push_back(quiet_option(output.quiet));
-    return own;
+    return with_output_options(output, std::move(own));
 }
 
 Option size_option(settings::RunSettings& settings, std::string_view meaning) {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "ui/base/study_output.h"
+#include "ui/base/output_options.h"
 
 #include <string>
 #include <vector>

@@ -4,8 +4,8 @@
 #include "models/measure/mesh_distance.h"
 #include "models/simplify/paper_simplify.h"
 #include "models/triangle_mesh.h"
+#include "ui/base/output_options.h"
 #include "ui/base/progress.h"
-#include "ui/base/study_output.h"
 
 #include <cstddef>
 #include <filesystem>

@@ -1,4 +1,4 @@
-#include "ui/command_line/option.h"
+#include "ui/command_line/command.h"
 
 #include "sim/base/error.h"
 #include "sim/base/text_file.h"
@@ -111,9 +111,11 @@ Option flag(std::string names, std::string meaning, bool& value) {
         .read = [&value](const Words& words) { value = words.front() == "true"; }};
 }
 
-Option json_option(bool& value) { return flag("--json", "print the results as JSON", value); }
-
-Option quiet_option(bool& value) { return flag("--quiet", "print no progress and no notes", value); }
+std::vector<Option> with_output_options(base::OutputOptions& output, std::vector<Option> table) {
+    table.push_back(flag("--json", "print the results as JSON", output.json));
+    table.push_back(flag("--quiet", "print no progress and no notes", output.quiet));
+    return table;
+}
 
 Option choice_option(std::string name, std::string form, std::string meaning, std::vector<std::string_view> choices,
     std::string& value) {
