@@ -11,8 +11,11 @@ namespace octant::models {
 struct ColourVertex {
     glm::vec3 position_m{0.0F}; ///< world axes, metres, eye point subtracted
     /// Red in the lowest byte, then green, blue, alpha; each 0..255. Red, green and blue are display values
-    /// (models/material.h). Alpha of ground that a texture colours is the share of its light that is left; of other
-    /// ground the share of the fine pattern that it has.
+    /// (models/material.h). Alpha means
+    /// - for transparent triangles: the opacity;
+    /// - for ground and shadows with a ground texture: the share of its light that is left; 0: the vertex has its own
+    ///   colour, without the texture;
+    /// - for ground coloured by its vertices: the number of its mixture of land covers (scene::LandCoverContrast).
     std::uint32_t colour = 0;
 };
 

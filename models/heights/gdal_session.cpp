@@ -6,9 +6,11 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cstdint>
 #include <fmt/format.h>
 #include <mutex>
+#include <new>
 
 namespace octant::models::heights {
 
@@ -81,6 +83,24 @@ void check_size(const std::filesystem::path& file, double columns, double rows, 
 }
 
 void DatasetDeleter::operator()(void* dataset) const { GDALClose(dataset); }
+
+MemoryFile::MemoryFile(std::string_view name, std::string_view bytes) {
+    static std::atomic<int> count = 0;
+    path_ = fmt::format("/vsimem/octant-{}/{}", count++, name);
+    if (bytes.empty()) { return; }
+    auto* const data = reinterpret_cast<GByte*>(const_cast<char*>(bytes.data())); // only read
+    VSILFILE* const file = VSIFileFromMemBuffer(path_.c_str(), data, bytes.size(), FALSE);
+    if (file == nullptr) { throw std::bad_alloc(); }
+    VSIFCloseL(file);
+}
+
+MemoryFile::~MemoryFile() { VSIUnlink(path_.c_str()); }
+
+std::string_view MemoryFile::bytes() const {
+    vsi_l_offset size = 0;
+    const GByte* data = VSIGetMemFileBuffer(path_.c_str(), &size, FALSE);
+    return {reinterpret_cast<const char*>(data), data == nullptr ? 0 : size};
+}
 
 GdalSession::GdalSession() {
     CPLPushErrorHandlerEx(&hear, this);

@@ -62,4 +62,24 @@ struct DatasetDeleter {
 /// Owner of a GDALDatasetH. Headers of this module do not include GDAL's headers, except gdal_functions.h.
 using Dataset = std::unique_ptr<void, DatasetDeleter>;
 
+/// A file in GDAL's memory under a path that no other file has; the destructor removes it.
+class MemoryFile {
+public:
+    /// `name` is the last part of path(). The file has these bytes, which must outlive it, or does not exist until GDAL
+    /// writes it. Throws std::bad_alloc.
+    explicit MemoryFile(std::string_view name, std::string_view bytes = {});
+    ~MemoryFile();
+    MemoryFile(const MemoryFile&) = delete;
+    MemoryFile& operator=(const MemoryFile&) = delete;
+    MemoryFile(MemoryFile&&) = delete;
+    MemoryFile& operator=(MemoryFile&&) = delete;
+
+    const std::string& path() const { return path_; }
+
+    std::string_view bytes() const;
+
+private:
+    std::string path_;
+};
+
 } // namespace octant::models::heights

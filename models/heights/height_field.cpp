@@ -9,17 +9,28 @@
 
 namespace octant::models::heights {
 
+std::optional<double> bilinear_of_known(
+    const std::array<float, 4>& heights_m, const glm::dvec2& share, double min_weight) {
+    constexpr double negligible = 1e-6;
+    double sum_m = 0.0;
+    double known = 0.0;
+    for (std::size_t i = 0; i < 4; ++i) {
+        const double weight = (i % 2 == 0 ? 1.0 - share.x : share.x) * (i < 2 ? 1.0 - share.y : share.y);
+        if (weight > negligible && !std::isnan(heights_m[i])) {
+            sum_m += weight * static_cast<double>(heights_m[i]);
+            known += weight;
+        }
+    }
+    return known >= min_weight ? std::optional(sum_m / known) : std::nullopt;
+}
+
 float interpolated(const HeightGrid& grid, double column, double row) {
     assert(grid.columns >= 2 && grid.rows >= 2);
-    const double across = std::clamp(column, 0.0, grid.columns - 1.0);
-    const double up = std::clamp(row, 0.0, grid.rows - 1.0);
-    const int west = std::min(static_cast<int>(across), grid.columns - 2);
-    const int south = std::min(static_cast<int>(up), grid.rows - 2);
-    const double u = across - west;
-    const double v = up - south;
-    const double low = grid.at(west, south) * (1.0 - u) + grid.at(west + 1, south) * u;
-    const double high = grid.at(west, south + 1) * (1.0 - u) + grid.at(west + 1, south + 1) * u;
-    return static_cast<float>(low * (1.0 - v) + high * v);
+    const glm::dvec2 last(grid.columns - 1, grid.rows - 1);
+    const CellPosition cell =
+        cell_at(glm::clamp(glm::dvec2(column, row), glm::dvec2(0.0), last), grid.columns, grid.rows);
+    const auto height = [&](int x, int y) { return static_cast<double>(grid.at(cell.column + x, cell.row + y)); };
+    return static_cast<float>(bilinear(height(0, 0), height(1, 0), height(0, 1), height(1, 1), cell.share));
 }
 
 HeightField::HeightField(int columns, int rows, double spacing_m, std::vector<float> heights_m)

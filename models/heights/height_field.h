@@ -2,10 +2,12 @@
 
 #include "sim/base/earth_frame.h"
 
+#include <glm/common.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -14,6 +16,51 @@
 #include <vector>
 
 namespace octant::models::heights {
+
+/// The bilinear mean of the values at the south-west, south-east, north-west and north-east corner of a cell, at a
+/// position in shares of its sides from the south-west corner.
+template <class Value, class Share>
+Value bilinear(const Value& sw, const Value& se, const Value& nw, const Value& ne, const glm::vec<2, Share>& share) {
+    return glm::mix(glm::mix(sw, se, share.x), glm::mix(nw, ne, share.x), share.y);
+}
+
+/// bilinear() of heights without those that are missing (NaN), whose weight the others share. Nothing if the known
+/// heights have less than `min_weight` of it. Corners of a weight up to 1e-6 never count.
+std::optional<double> bilinear_of_known(
+    const std::array<float, 4>& heights_m, const glm::dvec2& share, double min_weight);
+
+/// A cell of a grid by its south-west sample, and a position in it.
+struct CellPosition {
+    int column = 0;
+    int row = 0;
+    glm::dvec2 share{0.0}; ///< of the cell's sides, from the south-west
+};
+
+/// The cell with a position in columns and rows, which lies within the grid. The cells at the east and north border
+/// contain it; in a grid with one column or row the cell has no other side.
+inline CellPosition cell_at(const glm::dvec2& column_row, int columns, int rows) {
+    const int column = std::clamp(static_cast<int>(column_row.x), 0, std::max(columns - 2, 0));
+    const int row = std::clamp(static_cast<int>(column_row.y), 0, std::max(rows - 2, 0));
+    return {column, row, column_row - glm::dvec2(column, row)};
+}
+
+/// Bilinear height at a position in columns and rows. `Grid` has columns(), rows() and height_m(column, row) as
+/// HeightField, and at least 2 x 2 samples.
+template <class Grid>
+double bilinear_height_at_sample(const Grid& grid, const glm::dvec2& column_row) {
+    const CellPosition cell = cell_at(column_row, grid.columns(), grid.rows());
+    const auto height = [&](int column, int row) { return static_cast<double>(grid.height_m(column, row)); };
+    return bilinear(height(cell.column, cell.row), height(cell.column + 1, cell.row), height(cell.column, cell.row + 1),
+        height(cell.column + 1, cell.row + 1), cell.share);
+}
+
+/// Bilinear height at a position, metres; nothing outside the field. `Grid` also has spacing_m() and half_extent_m().
+template <class Grid>
+std::optional<double> bilinear_height_m(const Grid& grid, double x_m, double y_m) {
+    const glm::dvec2 half = grid.half_extent_m();
+    if (!(std::abs(x_m) <= half.x && std::abs(y_m) <= half.y)) { return std::nullopt; }
+    return bilinear_height_at_sample(grid, (glm::dvec2(x_m, y_m) + half) / static_cast<double>(grid.spacing_m()));
+}
 
 /// Heights before they become a HeightField: row after row from the south, west to east. NaN marks a sample without
 /// data until fill_voids has run.
@@ -32,24 +79,6 @@ struct HeightGrid {
 /// Bilinear height at fractional grid coordinates; outside the grid the height at its border. The grid needs at least 2
 /// x 2 samples (asserted).
 float interpolated(const HeightGrid& grid, double column, double row);
-
-/// Bilinear height at a position, metres; nothing outside the field. `Grid` has columns(), rows(), spacing_m(),
-/// half_extent_m() and height_m(column, row) as HeightField.
-template <class Grid>
-std::optional<double> bilinear_height_m(const Grid& grid, double x_m, double y_m) {
-    const glm::dvec2 half = grid.half_extent_m();
-    if (!(std::abs(x_m) <= half.x && std::abs(y_m) <= half.y)) { return std::nullopt; }
-    const double across = (x_m + half.x) / grid.spacing_m();
-    const double up = (y_m + half.y) / grid.spacing_m();
-    const int column = std::min(static_cast<int>(across), grid.columns() - 2);
-    const int row = std::min(static_cast<int>(up), grid.rows() - 2);
-    const double u = across - column;
-    const double v = up - row;
-    const auto mixed = [&](int at_row) {
-        return grid.height_m(column, at_row) * (1.0 - u) + grid.height_m(column + 1, at_row) * u;
-    };
-    return mixed(row) * (1.0 - v) + mixed(row + 1) * v;
-}
 
 /// A coordinate system with the same axis directions as the field.
 struct CoordinateSystem {

@@ -7,7 +7,6 @@
 #include "sim/base/output_file.h"
 
 #include <array>
-#include <atomic>
 #include <fmt/format.h>
 #include <limits>
 #include <string>
@@ -17,33 +16,6 @@
 namespace octant::models::heights {
 
 namespace {
-
-/// A name for a file in GDAL's memory, gone with its content when this ends.
-class MemoryFile {
-public:
-    MemoryFile() {
-        static std::atomic<int> count = 0;
-        name_ = fmt::format("/vsimem/octant-height-field-{}.tif", count++);
-    }
-
-    ~MemoryFile() { VSIUnlink(name_.c_str()); }
-
-    MemoryFile(const MemoryFile&) = delete;
-    MemoryFile& operator=(const MemoryFile&) = delete;
-    MemoryFile(MemoryFile&&) = delete;
-    MemoryFile& operator=(MemoryFile&&) = delete;
-
-    const char* name() const { return name_.c_str(); }
-
-    std::string_view bytes() const {
-        vsi_l_offset size = 0;
-        const GByte* data = VSIGetMemFileBuffer(name_.c_str(), &size, FALSE);
-        return {reinterpret_cast<const char*>(data), data == nullptr ? 0 : size};
-    }
-
-private:
-    std::string name_;
-};
 
 void set_system(GDALDatasetH dataset, const HeightField& field) {
     if (field.place) {
@@ -89,12 +61,12 @@ bool write_lines(GDALDatasetH dataset, const HeightField& field) {
 
 void write_height_field(const std::filesystem::path& path, const HeightField& field) {
     const GdalSession gdal;
-    const MemoryFile memory;
+    const MemoryFile memory("height-field.tif");
     char** options = CSLSetNameValue(nullptr, "COMPRESS", "DEFLATE");
     options = CSLSetNameValue(options, "PREDICTOR", "3");
     options = CSLSetNameValue(options, "BIGTIFF", "IF_SAFER");
     Dataset dataset(GDALCreate(
-        GDALGetDriverByName("GTiff"), memory.name(), field.columns(), field.rows(), 1, GDT_Float32, options));
+        GDALGetDriverByName("GTiff"), memory.path().c_str(), field.columns(), field.rows(), 1, GDT_Float32, options));
     CSLDestroy(options);
     bool written = dataset != nullptr;
     if (written) {
@@ -102,7 +74,7 @@ void write_height_field(const std::filesystem::path& path, const HeightField& fi
         written = write_lines(dataset.get(), field);
         dataset.reset();
     }
-    if (!written || gdal.failed()) { throw_error_in(path, "cannot be written: " + gdal.reason(memory.name())); }
+    if (!written || gdal.failed()) { throw_error_in(path, "cannot be written: " + gdal.reason(memory.path())); }
     write_file(path, memory.bytes());
 }
 

@@ -84,19 +84,7 @@ void take_transform(const GeoTransform& t, HeightRaster& raster) {
         t[3] + first_pixel * t[4] + first_line * t[5], right * t[4], up * t[5]};
 }
 
-template <typename Number>
-constexpr GDALDataType type_of() {
-    if constexpr (std::is_same_v<Number, double>) {
-        return GDT_Float64;
-    } else if constexpr (std::is_same_v<Number, std::int16_t>) {
-        return GDT_Int16;
-    } else {
-        static_assert(std::is_same_v<Number, std::uint8_t>);
-        return GDT_Byte;
-    }
-}
-
-/// Reads a window of one of the raster's bands into a buffer row after row from the south.
+/// Reads a window of one of the raster's bands, as double or std::uint8_t, row after row from the south.
 template <typename Number>
 void read_window(const path& file, const HeightRaster& raster, GDALRasterBandH band, const GridWindow& window,
     Number* numbers, const GdalSession& gdal) {
@@ -109,24 +97,13 @@ void read_window(const path& file, const HeightRaster& raster, GDALRasterBandH b
         numbers + (raster.rows_run_west ? window.columns - 1 : 0) +
         (raster.first_row_is_south ? std::ptrdiff_t{0} : std::ptrdiff_t{window.rows - 1} * window.columns);
     const CPLErr result = GDALRasterIOEx(band, GF_Read, pixel, line, window.columns, window.rows, start, window.columns,
-        window.rows, type_of<Number>(), raster.rows_run_west ? -size : size,
+        window.rows, std::is_same_v<Number, double> ? GDT_Float64 : GDT_Byte, raster.rows_run_west ? -size : size,
         raster.first_row_is_south ? line_size : -line_size, nullptr);
     if (result != CE_None || gdal.failed()) {
         const std::string cut_short = truncation_error(file, raster.datasets.front().get());
         if (!cut_short.empty()) { throw_unreadable(file, "a height field", cut_short); }
         throw_unreadable(file, "a height field", gdal.reason(file));
     }
-}
-
-/// 0 for each sample of a window that the raster's mask leaves out; empty without a mask.
-std::vector<std::uint8_t> validity_of(
-    const path& file, const HeightRaster& raster, const GridWindow& window, const GdalSession& gdal) {
-    std::vector<std::uint8_t> is_valid;
-    if (raster.mask != nullptr) {
-        is_valid.resize(static_cast<std::size_t>(window.columns) * static_cast<std::size_t>(window.rows));
-        read_window(file, raster, raster.mask, window, is_valid.data(), gdal);
-    }
-    return is_valid;
 }
 
 /// Raw numbers of one line, NaN without data by the file's word or the options'.
@@ -138,9 +115,10 @@ void read_raw_line(const path& file, const HeightRaster& raster, const GridWindo
         const std::int64_t from_north = raster.rows - 1 - line.first_row;
         raster.text_voids.apply(from_north * raster.columns + line.first_column, raw);
     }
-    const std::vector<std::uint8_t> is_valid = validity_of(file, raster, line, gdal);
+    std::vector<std::uint8_t> mask(raster.mask == nullptr ? 0 : raw.size());
+    if (raster.mask != nullptr) { read_window(file, raster, raster.mask, line, mask.data(), gdal); }
     for (std::size_t x = 0; x < raw.size(); ++x) {
-        if ((!is_valid.empty() && is_valid[x] == 0) || is_void(raw[x], raster)) {
+        if ((raster.mask != nullptr && mask[x] == 0) || is_void(raw[x], raster)) {
             raw[x] = std::numeric_limits<double>::quiet_NaN();
         }
     }
@@ -152,15 +130,15 @@ double modulus_of(GDALRasterBandH band) { return GDALGetRasterDataType(band) == 
 const UndeclaredVoids& undeclared_voids(const path& file, const HeightRaster& raster, const GdalSession& gdal) {
     if (!raster.undeclared) {
         const glm::dvec2 range_m = believed_m(raster.ellipsoid);
-        VoidDetector survey(range_m.x, range_m.y, modulus_of(raster.band));
+        VoidDetector detector(range_m.x, range_m.y, modulus_of(raster.band));
         std::vector<double> line(static_cast<std::size_t>(raster.columns));
         for (int row = 0; row < raster.rows; ++row) {
             read_raw_line(file, raster, {0, raster.columns, row, 1}, line, gdal);
             for (const double raw : line) {
-                if (!std::isnan(raw)) { survey.add(raw, height_of(raw, raster)); }
+                if (!std::isnan(raw)) { detector.add(raw, height_of(raw, raster)); }
             }
         }
-        raster.undeclared = survey.result();
+        raster.undeclared = detector.result();
     }
     return *raster.undeclared;
 }
@@ -512,22 +490,6 @@ void read_heights(const path& file, const HeightRaster& raster, const GridWindow
         read_raw_line(file, raster, one, line, gdal);
         std::ranges::transform(line, heights_m.begin() + static_cast<std::ptrdiff_t>(row) * window.columns,
             [&](double raw) { return height_from_raw(file, raw, raster, gdal); });
-    }
-}
-
-void read_integer_metres(const path& file, const HeightRaster& raster, const GridWindow& window,
-    std::span<std::int16_t> heights_m, const GdalSession& gdal) {
-    assert(raster.has_integer_metres);
-    read_window(file, raster, raster.band, window, heights_m.data(), gdal);
-    const std::vector<std::uint8_t> is_valid = validity_of(file, raster, window, gdal);
-    constexpr int lowest_sure_m = -998; // all usual marks are below, or above the highest height
-    constexpr int highest_sure_m = 9000;
-    for (std::size_t i = 0; i < heights_m.size(); ++i) {
-        const int metres = heights_m[i];
-        const bool is_sure = metres >= lowest_sure_m && metres <= highest_sure_m;
-        const bool is_left_out = (!is_valid.empty() && is_valid[i] == 0) || is_void(metres, raster) ||
-                                 (!is_sure && std::isnan(height_from_raw(file, metres, raster, gdal)));
-        if (is_left_out) { heights_m[i] = void_height_m; }
     }
 }
 

@@ -7,9 +7,7 @@
 #include "models/heights/local_frame.h"
 #include "models/heights/text_grid.h"
 
-#include <cstdint>
 #include <filesystem>
-#include <limits>
 #include <optional>
 #include <span>
 #include <vector>
@@ -42,16 +40,13 @@ struct GridWindow {
     int rows = 0;
 };
 
-/// Marks a sample without data among heights in whole metres.
-inline constexpr std::int16_t void_height_m = std::numeric_limits<std::int16_t>::min();
-
 /// Throws Error unless the height is within the bounds of import_options.h for this body. The error names the options
 /// that can help: --void with the raw number, and --height-scale unless the file names the unit of its heights.
 void check_height(const std::filesystem::path& file, double height_m, double raw, bool declares_unit,
     const Ellipsoid& ellipsoid = {});
 
-/// Opens a file with any of GDAL's drivers. The contract is that of read_height_field, except that the size is not
-/// checked.
+/// Opens a file with any of GDAL's drivers. The contract is that of read_height_field (height_field_import.h), except
+/// that the size is not checked.
 HeightRaster open_height_raster(const std::filesystem::path& file, const ImportOptions& options, GdalSession& gdal);
 
 /// All messages about a raster; complete after all heights have been read.
@@ -69,9 +64,5 @@ void read_raw(const std::filesystem::path& file, const HeightRaster& raster, con
 
 /// Whether a stored number equals a number of --void, `mark`, apart from rounding to float.
 bool is_same_raw(double raw, double mark);
-
-/// As read_heights, for a raster of whole metres (asserted); void_height_m without data.
-void read_integer_metres(const std::filesystem::path& file, const HeightRaster& raster, const GridWindow& window,
-    std::span<std::int16_t> heights_m, const GdalSession& gdal);
 
 } // namespace octant::models::heights

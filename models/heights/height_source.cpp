@@ -10,6 +10,7 @@
 #include "sim/base/error.h"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cmath>
 #include <filesystem>
@@ -26,6 +27,8 @@ namespace octant::models::heights {
 
 namespace {
 
+using std::filesystem::path;
+
 constexpr int block_edge = 256;
 /// Source coordinates are interpolated linearly between positions this many samples apart. At 100 m spacing the error
 /// is 0.05 m, far below a sample.
@@ -33,10 +36,6 @@ constexpr int place_step = 16;
 /// How far outside a grid's border a position may be because of rounding, in cells.
 constexpr double rim = 0.02;
 constexpr float no_height = std::numeric_limits<float>::quiet_NaN();
-
-double mixed(const std::vector<double>& at, std::size_t low, std::size_t high, double u, double v) {
-    return (at[low] * (1.0 - u) + at[low + 1] * u) * (1.0 - v) + (at[high] * (1.0 - u) + at[high + 1] * u) * v;
-}
 
 } // namespace
 
@@ -46,16 +45,16 @@ double mixed(const std::vector<double>& at, std::size_t low, std::size_t high, d
 class Resampler {
 public:
     /// The source grids must be in the target grid's frame. Both must outlive the resampler.
-    Resampler(const std::vector<SourceGrid>& grids, const TargetGrid& lattice) : grids_(grids), lattice_(lattice) {}
+    Resampler(const std::vector<SourceGrid>& grids, const TargetGrid& target) : grids_(grids), target_(target) {}
 
     /// Rows from `first_row` on, as many as fill the span; NaN without data. Throws Error.
     void read(int first_row, std::span<float> heights_m, const GdalSession& gdal) {
-        const auto width = static_cast<std::size_t>(lattice_.columns);
+        const auto width = static_cast<std::size_t>(target_.columns);
         const int count = static_cast<int>(heights_m.size() / width);
         std::fill(heights_m.begin(), heights_m.end(), no_height);
         for (int row = 0; row < count; row += block_edge) {
-            for (int column = 0; column < lattice_.columns; column += block_edge) {
-                const Block block{column, std::min(block_edge, lattice_.columns - column), first_row + row,
+            for (int column = 0; column < target_.columns; column += block_edge) {
+                const Block block{column, std::min(block_edge, target_.columns - column), first_row + row,
                     std::min(block_edge, count - row)};
                 block_m_.assign(
                     static_cast<std::size_t>(block.columns) * static_cast<std::size_t>(block.rows), no_height);
@@ -79,7 +78,7 @@ public:
     }
 
 private:
-    /// Columns and rows of the lattice that are read at a time.
+    /// Columns and rows of the target grid that are read at a time.
     struct Block {
         int first_column = 0;
         int columns = 0;
@@ -95,8 +94,8 @@ private:
         std::vector<double> y;
         for (int j = 0; j < up; ++j) {
             for (int i = 0; i < across; ++i) {
-                x.push_back(lattice_.west + (block.first_column + i * place_step) * lattice_.step);
-                y.push_back(lattice_.south + (block.first_row + j * place_step) * lattice_.step);
+                x.push_back(target_.west + (block.first_column + i * place_step) * target_.step);
+                y.push_back(target_.south + (block.first_row + j * place_step) * target_.step);
             }
         }
         grid.grid_from_frame(x, y);
@@ -114,9 +113,9 @@ private:
             for (int c = 0; c < block.columns; ++c) {
                 const auto low = static_cast<std::size_t>(r / place_step * across + c / place_step);
                 const std::size_t high = low + static_cast<std::size_t>(across);
-                const double u = static_cast<double>(c % place_step) / place_step;
-                const double column = mixed(x, low, high, u, v);
-                const double row = mixed(y, low, high, u, v);
+                const glm::dvec2 share(static_cast<double>(c % place_step) / place_step, v);
+                const double column = bilinear(x[low], x[low + 1], x[high], x[high + 1], share);
+                const double row = bilinear(y[low], y[low + 1], y[high], y[high + 1], share);
                 const bool inside =
                     column >= -rim && column <= last_column + rim && row >= -rim && row <= last_row + rim;
                 x_.push_back(inside ? std::clamp(column, 0.0, last_column) : std::nan(""));
@@ -160,30 +159,23 @@ private:
         }
     }
 
-    /// The bilinear height of the known samples if they have at least half of the weight, else NaN.
-    float surface_m(const GridWindow& window, double column, double row) const {
-        const int c = std::min(static_cast<int>(column), std::max(window.columns - 2, 0));
-        const int r = std::min(static_cast<int>(row), std::max(window.rows - 2, 0));
-        const double u = column - c;
-        const double v = row - r;
-        double sum = 0.0;
-        double known = 0.0;
-        for (int j = 0; j < 2; ++j) {
-            for (int i = 0; i < 2; ++i) {
-                const double weight = (i == 0 ? 1.0 - u : u) * (j == 0 ? 1.0 - v : v);
-                if (weight > 1e-6) {
-                    const auto height_m = static_cast<double>(
-                        source_m_[static_cast<std::size_t>(r + j) * static_cast<std::size_t>(window.columns) +
-                                  static_cast<std::size_t>(c + i)]);
-                    sum += std::isnan(height_m) ? 0.0 : weight * height_m;
-                    known += std::isnan(height_m) ? 0.0 : weight;
-                }
-            }
-        }
-        return known >= 0.5 ? static_cast<float>(sum / known) : no_height;
+    float source_at(const GridWindow& window, int column, int row) const {
+        return source_m_[static_cast<std::size_t>(row) * static_cast<std::size_t>(window.columns) +
+                         static_cast<std::size_t>(column)];
     }
 
-    /// The height of the source sample to which this place is the nearest of the lattice, if that one is higher than
+    /// The bilinear height of the known samples if they have at least half of the weight, else NaN.
+    float surface_m(const GridWindow& window, double column, double row) const {
+        const CellPosition cell = cell_at({column, row}, window.columns, window.rows);
+        const int east = std::min(cell.column + 1, window.columns - 1);
+        const int north = std::min(cell.row + 1, window.rows - 1);
+        const std::array corners_m{source_at(window, cell.column, cell.row), source_at(window, east, cell.row),
+            source_at(window, cell.column, north), source_at(window, east, north)};
+        const auto height_m = bilinear_of_known(corners_m, cell.share, 0.5);
+        return height_m ? static_cast<float>(*height_m) : no_height;
+    }
+
+    /// The height of the source sample to which this place is the nearest of the target, if that one is higher than
     /// all around it; else the lowest number.
     float summit_m(const GridWindow& window, double column, double row) const {
         constexpr float none = std::numeric_limits<float>::lowest();
@@ -193,31 +185,25 @@ private:
             std::abs(row - r) > half_step_.y) {
             return none;
         }
-        const auto at = [&](int x, int y) {
-            return source_m_[static_cast<std::size_t>(y) * static_cast<std::size_t>(window.columns) +
-                             static_cast<std::size_t>(x)];
-        };
-        const float own = at(c, r);
+        const float own = source_at(window, c, r);
         for (int j = -1; j <= 1; ++j) {
             for (int i = -1; i <= 1; ++i) {
-                if ((i != 0 || j != 0) && !(at(c + i, r + j) < own)) { return none; }
+                if ((i != 0 || j != 0) && !(source_at(window, c + i, r + j) < own)) { return none; }
             }
         }
         return own;
     }
 
     const std::vector<SourceGrid>& grids_;
-    const TargetGrid& lattice_;
+    const TargetGrid& target_;
     std::vector<double> x_; ///< for each sample of a block its column in the grid; NaN outside
     std::vector<double> y_;
     std::vector<float> source_m_;
     std::vector<float> block_m_;
-    glm::dvec2 half_step_{0.0}; ///< of the lattice, in cells of the grid
+    glm::dvec2 half_step_{0.0}; ///< of the target, in cells of the grid
 };
 
 namespace {
-
-using std::filesystem::path;
 
 std::vector<SourceGrid> open_grids(const std::vector<path>& files, const ImportOptions& options, GdalSession& gdal) {
     std::vector<SourceGrid> grids;
@@ -245,7 +231,7 @@ struct HeightSource::Content {
     std::vector<path> files;
     GdalSession gdal;
     std::vector<SourceGrid> grids;
-    TargetGrid lattice;
+    TargetGrid target;
     std::optional<Resampler> resampler; ///< where heights are not the files' own
     double spacing_m = 0.0;
     std::optional<GeoPosition> place;
@@ -258,9 +244,9 @@ struct HeightSource::Content {
             take_picture(grids.front().columns(), grids.front().rows(), options.spacing_m);
             return;
         }
-        lattice = target_grid_for(files.front(), grids);
-        spacing_m = lattice.step * lattice.unit_m;
-        if (!lattice.is_source) { resampler.emplace(grids, lattice); }
+        target = target_grid_for(files.front(), grids);
+        spacing_m = target.step * target.unit_m;
+        if (!target.is_source) { resampler.emplace(grids, target); }
         find_place();
         gdal.forget(); // a system without a place on the earth is no fault
     }
@@ -268,18 +254,18 @@ struct HeightSource::Content {
     /// A ground without georeference.
     void take_picture(int columns, int rows, double spacing) {
         check_size(files.front(), columns, rows, SourceGrid::largest_samples);
-        lattice.columns = columns;
-        lattice.rows = rows;
-        lattice.is_source = true;
-        lattice.cell_m = {spacing, spacing};
+        target.columns = columns;
+        target.rows = rows;
+        target.is_source = true;
+        target.cell_m = {spacing, spacing};
         spacing_m = spacing;
     }
 
     void find_place() {
-        if (!lattice.frame) { return; }
-        system = lattice.system();
+        if (!target.frame) { return; }
+        system = target.system();
         const SpatialReference globe = geographic_coordinate_system(ellipsoid_of(system->wkt));
-        const Transformation to_globe = between(lattice.frame.get(), globe.get());
+        const Transformation to_globe = between(target.frame.get(), globe.get());
         const auto middle = to_globe ? moved(to_globe, {system->centre_x, system->centre_y}) : std::nullopt;
         if (middle && std::abs(middle->y) <= 90.0) {
             place = GeoPosition{middle->y, middle->x, ellipsoid_of(system->wkt)};
@@ -287,12 +273,12 @@ struct HeightSource::Content {
     }
 
     void read(int first_row, std::span<float> heights_m) {
-        const auto width = static_cast<std::size_t>(lattice.columns);
+        const auto width = static_cast<std::size_t>(target.columns);
         if (resampler) {
             resampler->read(first_row, heights_m, gdal);
         } else {
             const int count = static_cast<int>(heights_m.size() / width);
-            grids.front().read({0, lattice.columns, first_row, count}, heights_m, gdal);
+            grids.front().read({0, target.columns, first_row, count}, heights_m, gdal);
         }
     }
 
@@ -306,7 +292,7 @@ struct HeightSource::Content {
 
     /// East and north of the centre.
     glm::dvec2 metres_of(const glm::dvec2& column_row) const {
-        return (column_row - 0.5 * glm::dvec2(lattice.columns - 1, lattice.rows - 1)) * spacing_m;
+        return (column_row - 0.5 * glm::dvec2(target.columns - 1, target.rows - 1)) * spacing_m;
     }
 
     /// A position as text for messages: latitude and longitude if they are known.
@@ -315,7 +301,7 @@ struct HeightSource::Content {
         if (place) {
             const SpatialReference globe = geographic_coordinate_system(place->ellipsoid);
             const glm::dvec2 centre(system->centre_x, system->centre_y);
-            const auto there = moved(between(lattice.frame.get(), globe.get()), centre + at_m / lattice.unit_m);
+            const auto there = moved(between(target.frame.get(), globe.get()), centre + at_m / target.unit_m);
             geo = there ? fmt::format("{:.5f}, {:.5f}, ", there->y, there->x) : "";
         }
         return fmt::format("{}{:.0f} m east and {:.0f} m north of the middle", geo, at_m.x, at_m.y);
@@ -326,8 +312,8 @@ struct HeightSource::Content {
         std::vector<StoredSample> samples;
         for (const SourceGrid& grid : grids) {
             glm::dvec2 at(column_row);
-            if (!lattice.is_source) {
-                at = glm::dvec2(lattice.west, lattice.south) + at * lattice.step;
+            if (!target.is_source) {
+                at = glm::dvec2(target.west, target.south) + at * target.step;
                 grid.grid_from_frame({&at.x, 1}, {&at.y, 1});
             }
             const glm::ivec2 centre(glm::round(at));
@@ -353,7 +339,7 @@ struct HeightSource::Content {
     /// The samples of the files that form a spike, the one with the largest difference to its surroundings first.
     std::vector<StoredSample> samples_of(const Spike& spike) const {
         // A sample of the ground lies up to one sample of the file away from the file's own.
-        const int radius = spike.radius + (lattice.is_source ? 0 : 1);
+        const int radius = spike.radius + (target.is_source ? 0 : 1);
         std::vector<StoredSample> samples = samples_near({spike.column, spike.row}, radius);
         const bool is_pit = spike.above_m < 0.0F;
         std::ranges::stable_sort(samples, [is_pit](const StoredSample& a, const StoredSample& b) {
@@ -416,7 +402,7 @@ struct HeightSource::Content {
         std::vector<Spike> found = spikes ? spikes->found() : std::vector<Spike>();
         std::ranges::stable_sort(
             found, [](const Spike& a, const Spike& b) { return std::abs(a.above_m) > std::abs(b.above_m); });
-        if (found.size() >= min_steep && !lattice.frame) {
+        if (found.size() >= min_steep && !target.frame) {
             MapNote note{fmt::format("{}: {} places are steeper than any ground on earth if cells are {:g} m wide{}",
                 name(), spikes->count(), spacing_m, has_map() ? "" : ": --terrain-spacing says how wide they are")};
             for (const Spike& spike : found) { note.places_m.push_back(metres_of({spike.column, spike.row})); }
@@ -446,12 +432,12 @@ struct HeightSource::Content {
     }
 
     void add_seams(std::vector<MapNote>& notes) const {
-        const double cell_m = std::min(lattice.cell_m.x, lattice.cell_m.y);
+        const double cell_m = std::min(target.cell_m.x, target.cell_m.y);
         for (const SeamStep& seam : steps_at_seams(grids, cell_m, gdal)) {
             MapNote note;
             for (glm::dvec2 at : seam.column_row) {
                 seam.grid->frame_from_grid({&at.x, 1}, {&at.y, 1});
-                note.places_m.push_back(metres_of((at - glm::dvec2(lattice.west, lattice.south)) / lattice.step));
+                note.places_m.push_back(metres_of((at - glm::dvec2(target.west, target.south)) / target.step));
             }
             note.text = fmt::format("{} and {}: heights step by {:.1f} m where the files meet, {:.1f} m more than the "
                                     "slope "
@@ -473,9 +459,9 @@ HeightSource::HeightSource(std::vector<path> files, const ImportOptions& options
 
 HeightSource::~HeightSource() = default;
 
-int HeightSource::columns() const { return content_->lattice.columns; }
+int HeightSource::columns() const { return content_->target.columns; }
 
-int HeightSource::rows() const { return content_->lattice.rows; }
+int HeightSource::rows() const { return content_->target.rows; }
 
 double HeightSource::spacing_m() const { return content_->spacing_m; }
 
@@ -491,7 +477,7 @@ std::string HeightSource::system_name() const {
     return name == nullptr ? "" : printable(name);
 }
 
-glm::dvec2 HeightSource::cell_m() const { return content_->lattice.cell_m; }
+glm::dvec2 HeightSource::cell_m() const { return content_->target.cell_m; }
 
 std::vector<MapNote> HeightSource::notes() const {
     std::vector<MapNote> notes;
@@ -521,39 +507,22 @@ std::int64_t HeightSource::count_voids() const {
 }
 
 bool HeightSource::has_integer_metres() const {
-    return keeps_source_samples() && content_->grids.front().has_integer_metres();
+    return content_->target.is_source && content_->grids.front().has_integer_metres();
 }
-
-bool HeightSource::keeps_source_samples() const { return content_->lattice.is_source; }
 
 std::optional<double> HeightSource::height_at(double x_m, double y_m) const {
     assert(content_->grids.front().map());
-    return source_height_m(content_->grids, content_->lattice, x_m, y_m, content_->gdal);
+    return source_height_m(content_->grids, content_->target, x_m, y_m, content_->gdal);
 }
 
 std::optional<HeightDeviation> HeightSource::deviation_of(const GroundAt& ground) const {
     if (!content_->grids.front().map()) { return std::nullopt; }
-    return deviation_from_source(content_->grids, content_->lattice, ground, content_->gdal);
+    return deviation_from_source(content_->grids, content_->target, ground, content_->gdal);
 }
 
 void HeightSource::read(int first_row, std::span<float> heights_m) {
     content_->read(first_row, heights_m);
     content_->spikes->take(first_row, heights_m);
-}
-
-void HeightSource::read(int first_row, std::span<std::int16_t> heights_m) {
-    assert(has_integer_metres());
-    const auto width = static_cast<std::size_t>(columns());
-    const int count = static_cast<int>(heights_m.size() / width);
-    content_->grids.front().read({0, columns(), first_row, count}, heights_m, content_->gdal);
-    std::vector<float> row(width);
-    for (int i = 0; i < count; ++i) {
-        const auto metres = heights_m.subspan(static_cast<std::size_t>(i) * width, width);
-        std::ranges::transform(metres, row.begin(), [](std::int16_t height_m) {
-            return height_m == void_height_m ? std::numeric_limits<float>::quiet_NaN() : static_cast<float>(height_m);
-        });
-        content_->spikes->take(first_row + i, row);
-    }
 }
 
 } // namespace octant::models::heights

@@ -22,7 +22,8 @@ namespace octant::models::heights {
 /// Each of several files must be georeferenced.
 class HeightSource {
 public:
-    /// Opens all files. Throws Error as read_height_field, and for files that do not fit together.
+    /// Opens all files. Throws Error as read_height_field (height_field_import.h), and for files that do not fit
+    /// together.
     HeightSource(std::vector<std::filesystem::path> files, const ImportOptions& options = {});
     ~HeightSource();
     HeightSource(HeightSource&&) = delete;
@@ -54,9 +55,6 @@ public:
     /// Whether all heights are whole metres that fit 16 bits.
     bool has_integer_metres() const;
 
-    /// Whether each sample is one of the files' samples and none is interpolated.
-    bool keeps_source_samples() const;
-
     /// The files' bilinear height at a position, metres east and north of the ground's centre; nothing without data.
     /// Not for files without georeference. Throws Error.
     std::optional<double> height_at(double x_m, double y_m) const;
@@ -68,9 +66,6 @@ public:
     /// Heights of rows from `first_row` on, as many as fill the span, row after row from the south, NaN without data.
     /// Throws Error (damaged file, heights not believed).
     void read(int first_row, std::span<float> heights_m);
-
-    /// Whole metres, where has_integer_metres() (asserted); void_height_m (height_raster.h) without data.
-    void read(int first_row, std::span<std::int16_t> heights_m);
 
 private:
     struct Content;

@@ -15,7 +15,6 @@
 #include <memory>
 #include <new>
 #include <numeric>
-#include <utility>
 
 namespace octant::models::heights {
 
@@ -155,16 +154,9 @@ Image read_image(const path& file) {
 }
 
 Image image_from_bytes(const std::string& name, std::string_view bytes) {
-    constexpr const char* place = "/vsimem/octant-image";
-    VSILFILE* const file = VSIFileFromMemBuffer(place,
-        reinterpret_cast<GByte*>(const_cast<char*>(bytes.data())), // only read
-        bytes.size(), FALSE);
-    if (file == nullptr) { throw_error_in(name, "expected an image that fits in memory, got a larger one"); }
-    VSIFCloseL(file);
-    const auto remove = [](const char* gone) { VSIUnlink(gone); };
-    const std::unique_ptr<const char, decltype(remove)> there(place, remove);
     try {
-        Image image = image_from(place);
+        const MemoryFile file("octant-image", bytes);
+        Image image = image_from(file.path());
         image.name = name;
         return image;
     } catch (const Error&) {

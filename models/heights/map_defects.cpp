@@ -207,9 +207,7 @@ public:
             return static_cast<double>(
                 heights_m.at(static_cast<std::size_t>(std::min(y, count.y - 1) * count.x + std::min(x, count.x - 1))));
         };
-        const double south = glm::mix(sample(0, 0), sample(1, 0), share.x);
-        const double north = glm::mix(sample(0, 1), sample(1, 1), share.x);
-        const double height_m = glm::mix(south, north, share.y);
+        const double height_m = bilinear(sample(0, 0), sample(1, 0), sample(0, 1), sample(1, 1), share);
         return std::isnan(height_m) ? std::nullopt : std::optional(height_m);
     }
 

@@ -109,22 +109,20 @@ void SourceGrid::frame_from_grid(std::span<double> column, std::span<double> row
     transform_points(to_frame_, column, row);
 }
 
-template <typename Height, typename ReadPiece>
-void SourceGrid::read_pieces(
-    const GridWindow& window, std::span<Height> heights, Height no_height, const ReadPiece& read_piece) const {
+void SourceGrid::read(const GridWindow& window, std::span<float> heights_m, const GdalSession& gdal) const {
     const auto width = static_cast<std::size_t>(window.columns);
-    assert(heights.size() == width * static_cast<std::size_t>(window.rows));
+    assert(heights_m.size() == width * static_cast<std::size_t>(window.rows));
     const auto covers = [&window](const SourcePiece& piece) {
         return piece.column <= window.first_column && piece.row <= window.first_row &&
                piece.column + piece.raster.columns >= window.first_column + window.columns &&
                piece.row + piece.raster.rows >= window.first_row + window.rows;
     };
     if (pieces_.size() == 1 && covers(pieces_.front())) {
-        read_piece(pieces_.front(), window, heights);
+        read_heights(pieces_.front().file, pieces_.front().raster, window, heights_m, gdal);
         return;
     }
-    std::fill(heights.begin(), heights.end(), no_height);
-    std::vector<Height> own;
+    std::ranges::fill(heights_m, std::numeric_limits<float>::quiet_NaN());
+    std::vector<float> own;
     for (const SourcePiece& piece : pieces_) {
         const int west = std::max(window.first_column, piece.column);
         const int east = std::min(window.first_column + window.columns, piece.column + piece.raster.columns);
@@ -134,31 +132,14 @@ void SourceGrid::read_pieces(
         const auto own_width = static_cast<std::size_t>(east - west);
         own.resize(own_width * static_cast<std::size_t>(north - south));
         const GridWindow part{west - piece.column, east - west, south - piece.row, north - south};
-        read_piece(piece, part, std::span<Height>(own));
+        read_heights(piece.file, piece.raster, part, own, gdal);
         for (int row = south; row < north; ++row) {
-            const Height* const from = &own[static_cast<std::size_t>(row - south) * own_width];
-            Height* const to = &heights[static_cast<std::size_t>(row - window.first_row) * width +
-                                        static_cast<std::size_t>(west - window.first_column)];
-            for (std::size_t x = 0; x < own_width; ++x) {
-                const bool free = to[x] == no_height || to[x] != to[x];
-                to[x] = free ? from[x] : to[x];
-            }
+            const float* const from = &own[static_cast<std::size_t>(row - south) * own_width];
+            float* const to = &heights_m[static_cast<std::size_t>(row - window.first_row) * width +
+                                         static_cast<std::size_t>(west - window.first_column)];
+            for (std::size_t x = 0; x < own_width; ++x) { to[x] = std::isnan(to[x]) ? from[x] : to[x]; }
         }
     }
-}
-
-void SourceGrid::read(const GridWindow& window, std::span<float> heights_m, const GdalSession& gdal) const {
-    read_pieces(window, heights_m, std::numeric_limits<float>::quiet_NaN(),
-        [&gdal](const SourcePiece& piece, const GridWindow& part, std::span<float> heights) {
-            read_heights(piece.file, piece.raster, part, heights, gdal);
-        });
-}
-
-void SourceGrid::read(const GridWindow& window, std::span<std::int16_t> heights_m, const GdalSession& gdal) const {
-    read_pieces(window, heights_m, void_height_m,
-        [&gdal](const SourcePiece& piece, const GridWindow& part, std::span<std::int16_t> heights) {
-            read_integer_metres(piece.file, piece.raster, part, heights, gdal);
-        });
 }
 
 namespace {
@@ -353,51 +334,51 @@ MapRectangle extent_of(const path& file, const std::vector<SourceGrid>& grids) {
     return all;
 }
 
-void lay_samples(const path& file, const MapRectangle& extent, TargetGrid& lattice) {
+void lay_samples(const path& file, const MapRectangle& extent, TargetGrid& target) {
     const glm::dvec2 size = extent.size();
-    const double columns = samples_on(size.x, lattice.step);
-    const double rows = samples_on(size.y, lattice.step);
+    const double columns = samples_on(size.x, target.step);
+    const double rows = samples_on(size.y, target.step);
     check_size(file, columns, rows, SourceGrid::largest_samples);
-    lattice.columns = static_cast<int>(columns);
-    lattice.rows = static_cast<int>(rows);
+    target.columns = static_cast<int>(columns);
+    target.rows = static_cast<int>(rows);
 }
 
-TargetGrid lattice_in_own_frame(const path& file, std::vector<SourceGrid>& grids) {
+TargetGrid target_in_own_frame(const path& file, std::vector<SourceGrid>& grids) {
     const SpatialReferenceHandle own = grids.front().system();
-    TargetGrid lattice;
-    lattice.frame = spatial_reference_of(own);
-    lattice.unit_m = own == nullptr ? 1.0 : OSRGetLinearUnits(own, nullptr);
+    TargetGrid target;
+    target.frame = spatial_reference_of(own);
+    target.unit_m = own == nullptr ? 1.0 : OSRGetLinearUnits(own, nullptr);
     for (SourceGrid& grid : grids) { grid.set_target_frame(nullptr); }
     Finest finest = finest_of(grids);
     const GridTransform& map = *finest.grid->map();
     finest.sides = map.steps(); // to the last bit
-    lattice.cell_m = finest.sides * lattice.unit_m;
+    target.cell_m = finest.sides * target.unit_m;
     const bool square = std::abs(finest.sides.x / finest.sides.y - 1.0) <= square_tolerance;
-    lattice.is_source = grids.size() == 1 && map.is_upright() && square;
-    lattice.step = lattice.is_source ? finest.sides.x : common_step(finest.sides);
+    target.is_source = grids.size() == 1 && map.is_upright() && square;
+    target.step = target.is_source ? finest.sides.x : common_step(finest.sides);
     const MapRectangle extent = extent_of(file, grids);
-    lay_samples(file, extent, lattice);
-    if (map.is_upright()) { // samples of the finest grid are samples of the lattice
+    lay_samples(file, extent, target);
+    if (map.is_upright()) { // samples of the finest grid are samples of the target
         const auto first = [&](double min, double at) {
-            return at + lattice.step * std::ceil((min - at) / lattice.step - 1e-6);
+            return at + target.step * std::ceil((min - at) / target.step - 1e-6);
         };
-        lattice.west = first(extent.min.x, map.x0);
-        lattice.south = first(extent.min.y, map.y0);
+        target.west = first(extent.min.x, map.x0);
+        target.south = first(extent.min.y, map.y0);
         MapRectangle rest = extent;
-        rest.min = {lattice.west, lattice.south};
-        lay_samples(file, rest, lattice);
+        rest.min = {target.west, target.south};
+        lay_samples(file, rest, target);
     } else {
-        lattice.west = extent.min.x;
-        lattice.south = extent.min.y;
+        target.west = extent.min.x;
+        target.south = extent.min.y;
     }
-    return lattice;
+    return target;
 }
 
-TargetGrid lattice_about_middle(const path& file, std::vector<SourceGrid>& grids) {
-    TargetGrid lattice;
-    lattice.frame = local_coordinate_system(middle_of(file, grids));
+TargetGrid target_about_middle(const path& file, std::vector<SourceGrid>& grids) {
+    TargetGrid target;
+    target.frame = local_coordinate_system(middle_of(file, grids));
     for (SourceGrid& grid : grids) {
-        if (!lattice.frame || !grid.set_target_frame(lattice.frame.get())) { error_no_frame(file, no_way_to_globe); }
+        if (!target.frame || !grid.set_target_frame(target.frame.get())) { error_no_frame(file, no_way_to_globe); }
     }
     const MapRectangle extent = extent_of(file, grids);
     if (!(std::max(extent.size().x, extent.size().y) <= widest_m)) {
@@ -405,14 +386,14 @@ TargetGrid lattice_about_middle(const path& file, std::vector<SourceGrid>& grids
     }
     const Finest finest = finest_of(grids);
     const double side = finest.side();
-    lattice.cell_m = finest.sides;
+    target.cell_m = finest.sides;
     const glm::dvec2 cells = extent.size() / side;
-    lattice.step = 4.0 * cells.x * cells.y <= max_halved ? 0.5 * side : side;
-    lay_samples(file, extent, lattice);
+    target.step = 4.0 * cells.x * cells.y <= max_halved ? 0.5 * side : side;
+    lay_samples(file, extent, target);
     const glm::dvec2 middle = 0.5 * (extent.min + extent.max);
-    lattice.west = middle.x - 0.5 * (lattice.columns - 1) * lattice.step;
-    lattice.south = middle.y - 0.5 * (lattice.rows - 1) * lattice.step;
-    return lattice;
+    target.west = middle.x - 0.5 * (target.columns - 1) * target.step;
+    target.south = middle.y - 0.5 * (target.rows - 1) * target.step;
+    return target;
 }
 
 } // namespace
@@ -423,24 +404,24 @@ CoordinateSystem TargetGrid::system() const {
 
 TargetGrid target_grid_for(const path& first, std::vector<SourceGrid>& grids) {
     check_systems(first, grids);
-    return keeps_own_frame(first, grids) ? lattice_in_own_frame(first, grids) : lattice_about_middle(first, grids);
+    return keeps_own_frame(first, grids) ? target_in_own_frame(first, grids) : target_about_middle(first, grids);
 }
 
 namespace {
 
 constexpr std::int64_t max_places = 250000; ///< of samples, and as many of middles
 
-/// The middle of the lattice, in its frame's units.
-glm::dvec2 middle_of(const TargetGrid& lattice) {
-    return {lattice.west + 0.5 * (lattice.columns - 1) * lattice.step,
-        lattice.south + 0.5 * (lattice.rows - 1) * lattice.step};
+/// The middle of the target, in its frame's units.
+glm::dvec2 middle_of(const TargetGrid& target) {
+    return {
+        target.west + 0.5 * (target.columns - 1) * target.step, target.south + 0.5 * (target.rows - 1) * target.step};
 }
 
 /// Takes in the differences between a ground and a row of a grid's places.
 class Differences {
 public:
-    Differences(const SourceGrid& grid, const TargetGrid& lattice, const GroundAt& ground)
-        : grid_(grid), lattice_(lattice), ground_(ground), middle_(middle_of(lattice)) {}
+    Differences(const SourceGrid& grid, const TargetGrid& target, const GroundAt& ground)
+        : grid_(grid), target_(target), ground_(ground), middle_(middle_of(target)) {}
 
     /// `off` from whole columns and rows; `heights_m` of the places, NaN for those without data.
     void add_row(int row, double off, const std::vector<float>& heights_m) {
@@ -453,7 +434,7 @@ public:
         grid_.frame_from_grid(x_, y_);
         for (std::size_t i = 0; i < heights_m.size(); ++i) {
             if (std::isnan(heights_m[i]) || std::isnan(x_[i])) { continue; }
-            const glm::dvec2 place_m = (glm::dvec2(x_[i], y_[i]) - middle_) * lattice_.unit_m;
+            const glm::dvec2 place_m = (glm::dvec2(x_[i], y_[i]) - middle_) * target_.unit_m;
             if (const auto height_m = ground_(place_m.x, place_m.y)) {
                 const double off_m = std::abs(*height_m - static_cast<double>(heights_m[i]));
                 ++found.places;
@@ -469,7 +450,7 @@ public:
 
 private:
     const SourceGrid& grid_;
-    const TargetGrid& lattice_;
+    const TargetGrid& target_;
     const GroundAt& ground_;
     glm::dvec2 middle_;
     double squares_ = 0.0;
@@ -480,46 +461,37 @@ private:
 } // namespace
 
 std::optional<double> source_height_m(
-    const std::vector<SourceGrid>& grids, const TargetGrid& lattice, double x_m, double y_m, const GdalSession& gdal) {
+    const std::vector<SourceGrid>& grids, const TargetGrid& target, double x_m, double y_m, const GdalSession& gdal) {
     for (const SourceGrid& grid : grids) {
-        glm::dvec2 at = middle_of(lattice) + glm::dvec2(x_m, y_m) / lattice.unit_m;
+        glm::dvec2 at = middle_of(target) + glm::dvec2(x_m, y_m) / target.unit_m;
         grid.grid_from_frame({&at.x, 1}, {&at.y, 1});
         constexpr double rim = 1e-6;
         if (!(at.x >= -rim && at.y >= -rim && at.x <= grid.columns() - 1 + rim && at.y <= grid.rows() - 1 + rim)) {
             continue;
         }
-        const int column = std::clamp(static_cast<int>(at.x), 0, std::max(grid.columns() - 2, 0));
-        const int row = std::clamp(static_cast<int>(at.y), 0, std::max(grid.rows() - 2, 0));
-        const int columns = std::min(2, grid.columns());
-        const int rows = std::min(2, grid.rows());
-        std::array<float, 4> corners_m{};
-        grid.read(
-            {column, columns, row, rows}, std::span(corners_m).first(static_cast<std::size_t>(columns * rows)), gdal);
-        double sum_m = 0.0;
-        for (int j = 0; j < rows; ++j) {
-            for (int i = 0; i < columns; ++i) {
-                const double across = 1.0 - std::abs(at.x - column - i);
-                const double along = 1.0 - std::abs(at.y - row - j);
-                const double weight = (columns == 1 ? 1.0 : across) * (rows == 1 ? 1.0 : along);
-                if (std::abs(weight) > rim) {
-                    sum_m += weight * static_cast<double>(corners_m[static_cast<std::size_t>(j * columns + i)]);
-                }
-            }
-        }
-        if (!std::isnan(sum_m)) { return sum_m; }
+        const CellPosition cell = cell_at(at, grid.columns(), grid.rows());
+        const std::size_t columns = grid.columns() == 1 ? 1 : 2;
+        const std::size_t rows = grid.rows() == 1 ? 1 : 2;
+        std::array<float, 4> read_m{};
+        grid.read({cell.column, static_cast<int>(columns), cell.row, static_cast<int>(rows)},
+            std::span(read_m).first(columns * rows), gdal);
+        const std::array corners_m{
+            read_m[0], read_m[columns - 1], read_m[columns * (rows - 1)], read_m[columns * rows - 1]};
+        constexpr double all = 1.0 - 4.0 * rim;
+        if (const auto height_m = bilinear_of_known(corners_m, cell.share, all)) { return height_m; }
     }
     return std::nullopt;
 }
 
 HeightDeviation deviation_from_source(
-    const std::vector<SourceGrid>& grids, const TargetGrid& lattice, const GroundAt& ground, const GdalSession& gdal) {
+    const std::vector<SourceGrid>& grids, const TargetGrid& target, const GroundAt& ground, const GdalSession& gdal) {
     std::int64_t samples = 0;
     for (const SourceGrid& grid : grids) { samples += std::int64_t{grid.columns()} * grid.rows(); }
     const auto between = static_cast<int>(samples / max_places + 1);
     HeightDeviation whole;
     double squares = 0.0;
     for (const SourceGrid& grid : grids) {
-        Differences differences(grid, lattice, ground);
+        Differences differences(grid, target, ground);
         std::vector<float> two_rows(2 * static_cast<std::size_t>(grid.columns()));
         const auto width = static_cast<std::size_t>(grid.columns());
         for (int row = between / 2; row + 1 < grid.rows(); row += between) {

@@ -22,7 +22,7 @@ struct SourcePiece {
     int row = 0;
 };
 
-/// Files of one coordinate system whose samples lie on one lattice, such as tiles that share their borders, as one
+/// Files of one coordinate system whose samples lie on one target, such as tiles that share their borders, as one
 /// grid. Where files overlap, the first that has data counts. Row 0 is the south and column 0 the west of an upright
 /// grid; a rotated one is a single file.
 class SourceGrid {
@@ -31,7 +31,7 @@ public:
 
     explicit SourceGrid(SourcePiece first);
 
-    /// Adds a piece if its samples lie on the lattice, in degrees also if they are off by 360. Returns whether it did.
+    /// Adds a piece if its samples lie on the target, in degrees also if they are off by 360. Returns whether it did.
     bool take(SourcePiece& piece);
 
     const std::vector<SourcePiece>& pieces() const { return pieces_; }
@@ -62,14 +62,7 @@ public:
     /// file, heights not believed).
     void read(const GridWindow& window, std::span<float> heights_m, const GdalSession& gdal) const;
 
-    /// Heights in whole metres, if has_integer_metres() (asserted); void_height_m without data.
-    void read(const GridWindow& window, std::span<std::int16_t> heights_m, const GdalSession& gdal) const;
-
 private:
-    template <typename Height, typename ReadPiece>
-    void read_pieces(
-        const GridWindow& window, std::span<Height> heights, Height no_height, const ReadPiece& read_piece) const;
-
     std::vector<SourcePiece> pieces_;
     std::optional<GridTransform> map_;
     int columns_;
@@ -98,7 +91,7 @@ struct TargetGrid {
 /// Chooses the samples of a ground from its source grids, each of which must have a map(), and sets their frame.
 ///
 /// Where all have the same system, which is in metres or another length and true to scale within 1 %, that is the
-/// frame, and the lattice has all samples of a grid whose cells are square; of oblong cells whose sides are as 1 to 2,
+/// frame, and the target has all samples of a grid whose cells are square; of oblong cells whose sides are as 1 to 2,
 /// 2 to 3 and the like, too. Else the frame is a transverse Mercator projection about the middle of all, and samples
 /// are as far apart as the finer sides of the finest cells, or half as far where that makes at most 4096 x 4096 of
 /// them. A grid is cut to the largest upright rectangle without missing corners, unless it lies so aslant that less
@@ -111,7 +104,7 @@ TargetGrid target_grid_for(const std::filesystem::path& first, std::vector<Sourc
 /// The bilinear height of the first grid that has data at a position, metres east and north of the target grid's
 /// centre; nothing if none has. The grids must be in the target grid's frame. Throws Error (damaged file).
 std::optional<double> source_height_m(
-    const std::vector<SourceGrid>& grids, const TargetGrid& lattice, double x_m, double y_m, const GdalSession& gdal);
+    const std::vector<SourceGrid>& grids, const TargetGrid& target, double x_m, double y_m, const GdalSession& gdal);
 
 /// The height of a ground at a position as in source_height_m; nothing outside.
 using GroundAt = std::function<std::optional<double>(double x_m, double y_m)>;
@@ -119,6 +112,6 @@ using GroundAt = std::function<std::optional<double>(double x_m, double y_m)>;
 /// The vertical distance between a ground and the bilinear surfaces of its sources, measured at samples of evenly
 /// spread rows of each grid and at the centres of the cells to their north-east; at most about 500,000 positions.
 HeightDeviation deviation_from_source(
-    const std::vector<SourceGrid>& grids, const TargetGrid& lattice, const GroundAt& ground, const GdalSession& gdal);
+    const std::vector<SourceGrid>& grids, const TargetGrid& target, const GroundAt& ground, const GdalSession& gdal);
 
 } // namespace octant::models::heights

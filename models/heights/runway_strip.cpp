@@ -200,7 +200,7 @@ std::optional<double> earthwork_m(const RunwayStrip& strip, const HeightField& f
 /// The best site so far, and by what it is the best.
 class Search {
 public:
-    Search(const HeightField& field, const RunwayRequest& wish) : field_(field), wish_(wish) {}
+    Search(const HeightField& field, const RunwayRequest& request) : field_(field), request_(request) {}
 
     /// `apart`: what way and turn count for.
     void look_at(RunwayStrip strip, double apart) {
@@ -209,7 +209,7 @@ public:
             apart + cost_of(fit(strip, field_)) >= least_) {
             return;
         }
-        const std::optional<double> work_m = earthwork_m(strip, field_, wish_.water_m);
+        const std::optional<double> work_m = earthwork_m(strip, field_, request_.water_m);
         if (work_m && apart + cost_of(*work_m) < least_) {
             least_ = apart + cost_of(*work_m);
             best_ = {strip, *work_m, apart == 0.0};
@@ -226,7 +226,7 @@ private:
     static double cost_of(double earthwork_m) { return earthwork_m + (earthwork_m > max_earthwork_m ? 1000.0 : 0.0); }
 
     const HeightField& field_;
-    const RunwayRequest& wish_;
+    const RunwayRequest& request_;
     double least_ = std::numeric_limits<double>::infinity();
     std::optional<RunwaySite> best_;
 };
@@ -263,13 +263,13 @@ std::vector<Middle> middles_near(const std::vector<glm::dvec2>& path_m) {
     return middles;
 }
 
-void look_around(const RunwayRequest& wish, Search& search) {
-    for (const Middle& middle : middles_near(wish.path_m)) {
+void look_around(const RunwayRequest& request, Search& search) {
+    for (const Middle& middle : middles_near(request.path_m)) {
         if (search.ends_at(middle.apart)) { return; }
         for (int step = -heading_steps; step < heading_steps; ++step) {
             const double turned_deg = heading_step_deg * step;
             RunwayStrip strip;
-            strip.heading_rad = wish.heading_rad + rad_from_deg(turned_deg);
+            strip.heading_rad = request.heading_rad + rad_from_deg(turned_deg);
             strip.begin_m = middle.at_m - strip.along() * (0.5 * strip.length_m);
             search.look_at(strip, middle.apart + std::abs(turned_deg) / turn_per_m_deg);
         }
@@ -278,14 +278,14 @@ void look_around(const RunwayRequest& wish, Search& search) {
 
 } // namespace
 
-std::optional<RunwaySite> runway_site(const HeightField& field, const RunwayRequest& wish) {
-    assert(!wish.path_m.empty());
-    Search search(field, wish);
+std::optional<RunwaySite> runway_site(const HeightField& field, const RunwayRequest& request) {
+    assert(!request.path_m.empty());
+    Search search(field, request);
     RunwayStrip strip;
-    strip.heading_rad = wish.heading_rad;
-    strip.begin_m = wish.path_m.front() - strip.along() * aim_after_m;
+    strip.heading_rad = request.heading_rad;
+    strip.begin_m = request.path_m.front() - strip.along() * aim_after_m;
     search.look_at(strip, 0.0);
-    if (!search.best() || search.best()->earthwork_m > max_earthwork_m) { look_around(wish, search); }
+    if (!search.best() || search.best()->earthwork_m > max_earthwork_m) { look_around(request, search); }
     return search.best();
 }
 

@@ -89,6 +89,6 @@ inline constexpr double runway_search_radius_m = 6000.0;
 /// earthwork costs as much as 200 m between the path and the runway's middle, 500 m between that and the path's
 /// beginning, or a turn by 15 degrees. Deterministic. Nothing if each site would leave the field or touch water. The
 /// caller decides whether the earthwork is too large.
-std::optional<RunwaySite> runway_site(const HeightField& field, const RunwayRequest& wish);
+std::optional<RunwaySite> runway_site(const HeightField& field, const RunwayRequest& request);
 
 } // namespace octant::models::heights

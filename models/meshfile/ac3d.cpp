@@ -1,7 +1,6 @@
 #include "models/meshfile/mesh_builder.h"
 #include "models/meshfile/mesh_formats.h"
 #include "models/meshfile/mesh_join.h"
-#include "models/meshfile/mesh_parts.h"
 #include "models/polygons/obj_reader.h"
 #include "models/triangle_mesh.h"
 #include "sim/base/error.h"
@@ -11,7 +10,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <charconv>
 #include <cstddef>
 #include <cstdint>
@@ -37,13 +35,13 @@ struct Ac3dObject {
 };
 
 /// Whether an object's name says that it represents turning blades, a light cone or a shadow on the ground.
-bool is_stand_in(std::string name) {
-    std::ranges::transform(name, name.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+bool is_stand_in(const std::string& object_name) {
+    const std::string name = lower_case(object_name);
     const auto has = [&](std::string_view part) { return name.find(part) != name.npos; };
     const bool of_blades = has("prop") || has("rotor") || has("blade") || has("pdis");
     const bool turns_fast = has("disc") || has("disk") || has("blur") || has("fast");
     const bool is_of_light = has("light") && (has("cone") || has("volume") || has("beam"));
-    return (of_blades && turns_fast) || is_of_light || (has("shadow") && !has("noshadow"));
+    return (of_blades && turns_fast) || is_of_light || names_shadow(name);
 }
 
 /// Returns the options of an object with this name that is a child of `holder`.

@@ -1,11 +1,11 @@
 // FlightGear's model files: a PropertyList that names a mesh, other models with their offsets, and animations, which
 // are read as at rest: all properties 0, but for what turns in flight. Its axes are x back, y right, z up; AC3D files
 // lie in them as (x, -z, y).
+#include "models/meshfile/flightgear_xml.h"
 #include "models/meshfile/mesh_builder.h"
 #include "models/meshfile/mesh_file.h"
 #include "models/meshfile/mesh_formats.h"
 #include "models/meshfile/mesh_join.h"
-#include "models/meshfile/xml_tree.h"
 #include "sim/base/error.h"
 #include "sim/base/text_file.h"
 #include "sim/base/units.h"
@@ -20,7 +20,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cmath>
 #include <cstddef>
 #include <filesystem>
@@ -40,66 +39,69 @@ namespace octant::models::meshfile {
 namespace {
 
 namespace fs = std::filesystem;
+using Names = std::set<std::string>;
+using Groups = std::map<std::string, Names>; ///< members by the name of their group
 
-constexpr std::size_t largest_xml_bytes = std::size_t{64} << 20U;
 constexpr int max_include_depth = 8;
 constexpr int max_files = 500;
 
-XmlElement tree_of(const fs::path& file, int depth, int& files);
+XmlElement with_includes(const fs::path& file, int depth, int& files);
 
-void include_into(XmlElement& element, const fs::path& file, int depth, int& files) {
-    const fs::path included = element.include.empty() ? fs::path() : flightgear_file(file, element.include);
+void include_into(XmlElement& element, int depth, int& files) {
+    const fs::path included = element.include.empty() ? fs::path() : flightgear_file(*element.file, element.include);
     if (included.empty()) { return; }
-    if (depth == max_include_depth) {
-        throw_error_at(file, element.line, fmt::format("expected includes at most {} deep, got more", depth));
-    }
-    if (++files > max_files) {
-        throw_error_at(file, element.line, fmt::format("expected at most {} includes, got more", max_files));
-    }
-    XmlElement other = tree_of(included, depth + 1, files);
+    if (depth == max_include_depth) { element.refuse(fmt::format("includes at most {} deep", depth), "more"); }
+    if (++files > max_files) { element.refuse(fmt::format("at most {} includes", max_files), "more"); }
+    XmlElement other = with_includes(included, depth + 1, files);
     element.children.insert(element.children.end(), std::make_move_iterator(other.children.begin()),
         std::make_move_iterator(other.children.end()));
 }
 
-XmlElement tree_of(const fs::path& file, int depth, int& files) {
-    const std::string text = read_text_file(file, largest_xml_bytes);
-    XmlElement root = xml_tree(file, text);
-    for (XmlElement& child : root.children) { include_into(child, file, depth, files); }
-    include_into(root, file, depth, files);
+XmlElement with_includes(const fs::path& file, int depth, int& files) {
+    XmlElement root = read_xml(file);
+    for (XmlElement& child : root.children) { include_into(child, depth, files); }
+    include_into(root, depth, files);
     return root;
 }
 
-/// The elements of a FlightGear file. What the outermost element, or one in it, includes from another file stands
-/// behind its own; an included file that is not there is left out. Throws Error for files that cannot be read, and for
-/// includes more than 8 deep or 500 in all.
+/// Reads a FlightGear file. Elements that the outermost element or one of its children includes from another file are
+/// appended to its own; an included file that does not exist is skipped. Throws Error for files that cannot be read,
+/// and for includes more than 8 deep or 500 in all.
 XmlElement flightgear_tree(const fs::path& file) {
     int files = 0;
-    return tree_of(file, 0, files);
+    return with_includes(file, 0, files);
 }
 
 /// The number in a child of an element of a FlightGear file; `without` where there is none. Throws Error for what is no
 /// number, or beyond max_coordinate.
-double number_in(const fs::path& file, const XmlElement& parent, std::string_view name, double without = 0.0) {
+double number_in(const XmlElement& parent, std::string_view name, double without = 0.0) {
     const XmlElement* found = parent.find(name);
     if (found == nullptr || found->text.empty()) { return without; }
     const auto value = finite_number(found->text);
-    if (!value || std::abs(*value) > max_coordinate) {
-        throw_error_at(file, found->line, "expected a number, got " + in_quotes(found->text));
-    }
+    if (!value || std::abs(*value) > max_coordinate) { found->refuse("a number", in_quotes(found->text)); }
     return *value;
 }
 
-glm::dvec3 vector_in(const fs::path& file, const XmlElement& parent, const std::array<std::string_view, 3>& names) {
-    return {number_in(file, parent, names[0]), number_in(file, parent, names[1]), number_in(file, parent, names[2])};
+glm::dvec3 vector_in(const XmlElement& parent, const std::array<std::string_view, 3>& names) {
+    return {number_in(parent, names[0]), number_in(parent, names[1]), number_in(parent, names[2])};
+}
+
+/// The objects that an animation names; empty: all of the model.
+Names objects_of(const XmlElement& animation) {
+    Names names;
+    for (const XmlElement& child : animation.children) {
+        if (child.name == "object-name") { names.insert(child.text); }
+    }
+    return names;
 }
 
 /// What the table of an animation makes of a property's value; the value itself without one.
-double interpolated(const fs::path& file, const XmlElement& animation, double value) {
+double interpolated(const XmlElement& animation, double value) {
     const XmlElement* table = animation.find("interpolation");
     std::vector<std::pair<double, double>> entries;
     for (std::size_t i = 0; table != nullptr && i < table->children.size(); ++i) {
         const XmlElement& entry = table->children[i];
-        entries.emplace_back(number_in(file, entry, "ind"), number_in(file, entry, "dep"));
+        entries.emplace_back(number_in(entry, "ind"), number_in(entry, "dep"));
     }
     std::ranges::sort(entries);
     const auto next = std::ranges::upper_bound(entries, value, {}, [](const auto& entry) { return entry.first; });
@@ -113,19 +115,19 @@ double interpolated(const fs::path& file, const XmlElement& animation, double va
 
 /// A point of an animation's axis and its direction, as long as the file has it: without a length where it gives none.
 /// It does not turn.
-RotationAxis axis_in(const fs::path& file, const XmlElement& animation) {
+RotationAxis axis_in(const XmlElement& animation) {
     RotationAxis about;
     about.direction = glm::dvec3(0.0);
     if (const XmlElement* axis = animation.find("axis")) {
         if (axis->find("x1-m") != nullptr || axis->find("x2-m") != nullptr) {
-            about.point_m = vector_in(file, *axis, {"x1-m", "y1-m", "z1-m"});
-            about.direction = vector_in(file, *axis, {"x2-m", "y2-m", "z2-m"}) - about.point_m;
+            about.point_m = vector_in(*axis, {"x1-m", "y1-m", "z1-m"});
+            about.direction = vector_in(*axis, {"x2-m", "y2-m", "z2-m"}) - about.point_m;
         } else {
-            about.direction = vector_in(file, *axis, {"x", "y", "z"});
+            about.direction = vector_in(*axis, {"x", "y", "z"});
         }
     }
     if (const XmlElement* centre = animation.find("center")) {
-        about.point_m = vector_in(file, *centre, {"x-m", "y-m", "z-m"});
+        about.point_m = vector_in(*centre, {"x-m", "y-m", "z-m"});
     }
     return about;
 }
@@ -177,14 +179,14 @@ bool holds_at_rest(const XmlElement& animation) {
 
 /// An animation by which something turns in flight; axes of the FlightGear model.
 struct FlightGearRotation {
-    std::set<std::string> objects; ///< by name; empty: all of the model
+    Names objects; ///< by name; empty: all of the model
     RotationAxis about;
 };
 
 /// Where a `rotate` or `translate` animation puts what it names while all properties are 0: landing gear up, for one.
 /// Axes of the FlightGear model.
 struct FlightGearRestPlacement {
-    std::set<std::string> objects; ///< by name; an empty one: all of the model
+    Names objects; ///< by name; an empty one: all of the model
     AffineTransform placement;
 };
 
@@ -193,7 +195,7 @@ struct FlightGearRestPlacement {
 struct FlightGearAnimations {
     /// What a range shows only to eyes farther than some metres away, what a select hides at rest, what stands for a
     /// light's reach, and what is moved along the ground as a shadow. An empty name stands for all of the model.
-    std::set<std::string> hidden;
+    Names hidden;
     std::vector<FlightGearRotation> turns;      ///< of objects about the same axis only one
     std::vector<FlightGearRestPlacement> moves; ///< in the file's order: the first one moves what others moved
     std::map<std::string, int> at_rest;         ///< how many others there are, by their types
@@ -258,9 +260,7 @@ double turns_per_minute(std::string_view kind, std::string_view property) {
 /// otherwise.
 double rate_by_name(const XmlElement& animation, const glm::dvec3& direction) {
     const auto named = [](const XmlElement& child) {
-        std::string name = child.name == "object-name" ? child.text : "";
-        std::ranges::transform(
-            name, name.begin(), [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
+        const std::string name = lower_case(child.name == "object-name" ? child.text : "");
         return std::ranges::any_of(
             std::array{"rotor", "prop", "blade"}, [&](const char* part) { return name.find(part) != name.npos; });
     };
@@ -281,7 +281,7 @@ bool is_of_other_wheels(std::string_view property) {
 /// tail rotors at 2000, turbines at 90 per cent. `spin` by a property that does not say what it is of turns what is
 /// called rotor, propeller or blade: about a mostly upright axis as a main rotor, along as a propeller, across as a
 /// tail rotor. Nothing for wheels, instruments and all other animations. Throws Error for faulty numbers.
-std::optional<FlightGearRotation> rotation_in_flight(const fs::path& file, const XmlElement& animation) {
+std::optional<FlightGearRotation> rotation_in_flight(const XmlElement& animation) {
     const std::string_view kind = animation.text_of("type");
     const std::string_view property = animation.text_of("property");
     double rate = turns_per_minute(kind, property);
@@ -290,32 +290,30 @@ std::optional<FlightGearRotation> rotation_in_flight(const fs::path& file, const
     if (rate == 0.0) { // then its numbers do not count: files have faulty ones
         return std::nullopt;
     }
-    const double factor = number_in(file, animation, "factor", 1.0);
-    FlightGearRotation turn{{}, axis_in(file, animation)};
+    const double factor = number_in(animation, "factor", 1.0);
+    FlightGearRotation turn{{}, axis_in(animation)};
     const double length = glm::length(turn.about.direction);
     if (factor == 0.0 || !(length > 0.0)) { return std::nullopt; }
     turn.about.direction /= length;
     if (by_name) { rate = rate_by_name(animation, turn.about.direction); }
     // An angle's factor only says which way round.
     turn.about.turns_per_s =
-        kind == "spin" ? interpolated(file, animation, rate) * factor / 60.0 : std::copysign(rate, factor) / 60.0;
-    for (const XmlElement& named : animation.children) {
-        if (named.name == "object-name") { turn.objects.insert(named.text); }
-    }
+        kind == "spin" ? interpolated(animation, rate) * factor / 60.0 : std::copysign(rate, factor) / 60.0;
+    turn.objects = objects_of(animation);
     return turn;
 }
 
 /// Degrees or metres, for the property's value of 0; without one for the position at the start. `unit`: as its
 /// elements' names end.
-double value_at_rest(const fs::path& file, const XmlElement& animation, std::string_view unit) {
+double value_at_rest(const XmlElement& animation, std::string_view unit) {
     const auto number = [&](std::string_view name, double without) {
-        return number_in(file, animation, std::string(name) + std::string(unit), without);
+        return number_in(animation, std::string(name) + std::string(unit), without);
     };
     const bool has_property = !animation.text_of("property").empty();
     const double input = has_property ? 0.0 : number("starting-position", 0.0);
-    if (animation.find("interpolation") != nullptr) { return interpolated(file, animation, input); }
+    if (animation.find("interpolation") != nullptr) { return interpolated(animation, input); }
     constexpr double any = std::numeric_limits<double>::max();
-    const double factor = input == 0.0 ? 1.0 : number_in(file, animation, "factor", 1.0);
+    const double factor = input == 0.0 ? 1.0 : number_in(animation, "factor", 1.0);
     const double value = input * factor + number("offset", 0.0);
     return std::min(std::max(value, number("min", -any)), number("max", any));
 }
@@ -327,38 +325,26 @@ AffineTransform turned_about(const RotationAxis& axis, double angle_rad) {
 
 /// Nothing for other animations, for those that leave everything where it is, whose condition does not hold at rest, or
 /// that compute an <expression>. Throws Error for faulty numbers.
-std::optional<FlightGearRestPlacement> placement_at_rest(const fs::path& file, const XmlElement& animation) {
+std::optional<FlightGearRestPlacement> placement_at_rest(const XmlElement& animation) {
     const std::string_view kind = animation.text_of("type");
     const bool turns = kind == "rotate";
     if ((!turns && kind != "translate") || animation.find("expression") != nullptr || !holds_at_rest(animation)) {
         return std::nullopt;
     }
-    const double value = value_at_rest(file, animation, turns ? "-deg" : "-m");
+    const double value = value_at_rest(animation, turns ? "-deg" : "-m");
     if (value == 0.0) { // then its axis does not count: files have faulty ones
         return std::nullopt;
     }
-    RotationAxis axis = axis_in(file, animation);
+    RotationAxis axis = axis_in(animation);
     const double length = glm::length(axis.direction);
     if (!(length > 0.0)) { return std::nullopt; }
     axis.direction /= length;
     FlightGearRestPlacement move;
     move.placement =
         turns ? turned_about(axis, rad_from_deg(value)) : AffineTransform{glm::dmat3(1.0), value * axis.direction};
-    for (const XmlElement& named : animation.children) {
-        if (named.name == "object-name") { move.objects.insert(named.text); }
-    }
+    move.objects = objects_of(animation);
     if (move.objects.empty()) { move.objects.insert(""); }
     return move;
-}
-
-using Names = std::set<std::string>;
-using Groups = std::map<std::string, Names>;
-
-void add_names(const XmlElement& animation, Names& names) {
-    if (animation.find("object-name") == nullptr) { names.insert(""); }
-    for (const XmlElement& named : animation.children) {
-        if (named.name == "object-name") { names.insert(named.text); }
-    }
 }
 
 /// Animations without a type give several objects one name.
@@ -367,8 +353,8 @@ Groups groups_in(const XmlElement& root) {
     for (const XmlElement& child : root.children) {
         const std::string name(child.text_of("name"));
         if (child.name == "animation" && child.text_of("type").empty() && !name.empty()) {
-            add_names(child, groups[name]);
-            groups[name].erase(""); // of a group without members
+            groups[name].merge(objects_of(child));
+            groups[name].erase("");
         }
     }
     return groups;
@@ -384,17 +370,10 @@ void expand(Names& names, const Groups& groups) {
     }
 }
 
-bool is_shadow(const std::string& name) {
-    std::string lower = name;
-    std::ranges::transform(lower, lower.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return lower.find("shadow") != lower.npos && lower.find("noshadow") == lower.npos;
-}
-
 /// Sheets that FlightGear's older models move along the ground below them.
 void add_shadows(const XmlElement& animation, Names& hidden) {
-    Names names;
-    add_names(animation, names);
-    std::ranges::copy_if(names, std::inserter(hidden, hidden.end()), is_shadow);
+    std::ranges::copy_if(objects_of(animation), std::inserter(hidden, hidden.end()),
+        [](const std::string& name) { return names_shadow(lower_case(name)); });
 }
 
 /// Turns of objects about the same axis become one: each costs a reading of the mesh.
@@ -410,12 +389,12 @@ void add_turn(FlightGearRotation turn, std::vector<FlightGearRotation>& turns) {
     }
 }
 
-/// What `read(file, animation)` gives; nothing for one whose numbers are faulty.
+/// What `read(animation)` gives; nothing for one whose numbers are faulty.
 template <typename Read>
-auto unless_faulty(const Read& read, const fs::path& file, const XmlElement& animation, std::vector<std::string>& notes)
-    -> decltype(read(file, animation)) {
+auto unless_faulty(const Read& read, const XmlElement& animation, std::vector<std::string>& notes)
+    -> decltype(read(animation)) {
     try {
-        return read(file, animation);
+        return read(animation);
     } catch (const Error& fault) {
         notes.push_back(fmt::format("{}; what it moves is left at rest", fault.what()));
         return std::nullopt;
@@ -425,12 +404,12 @@ auto unless_faulty(const Read& read, const fs::path& file, const XmlElement& ani
 /// Whether an animation hides what it names from an eye outside, at rest. Ranges that begin within some metres hide a
 /// pilot from his own eye; those that begin at a level of detail hold coarser levels, which are not needed: the finest
 /// one is refined. One whose numbers are faulty hides nothing.
-bool hides(const fs::path& file, const XmlElement& animation, std::vector<std::string>& notes) {
+bool hides(const XmlElement& animation, std::vector<std::string>& notes) {
     const std::string_view kind = animation.text_of("type");
     if (kind != "range") { return kind == "light" || !holds_at_rest(animation); }
     try {
         constexpr double eye_outside_m = 10.0;
-        return animation.find("min-property") != nullptr || number_in(file, animation, "min-m") > eye_outside_m;
+        return animation.find("min-property") != nullptr || number_in(animation, "min-m") > eye_outside_m;
     } catch (const Error& fault) {
         notes.push_back(fmt::format("{}; what it names is always shown", fault.what()));
         return false;
@@ -438,21 +417,25 @@ bool hides(const fs::path& file, const XmlElement& animation, std::vector<std::s
 }
 
 /// `root`: of flightgear_tree(file).
-FlightGearAnimations flightgear_animations(const fs::path& file, const XmlElement& root) {
+FlightGearAnimations flightgear_animations(const XmlElement& root) {
     const Groups groups = groups_in(root);
     FlightGearAnimations animated;
     for (const XmlElement& child : root.children) {
         const std::string kind(child.text_of("type"));
         if (child.name != "animation" || kind.empty()) { continue; }
         if (kind == "range" || kind == "select" || kind == "light") {
-            if (hides(file, child, animated.notes)) { add_names(child, animated.hidden); }
-        } else if (auto turn = unless_faulty(rotation_in_flight, file, child, animated.notes)) {
+            if (hides(child, animated.notes)) {
+                Names objects = objects_of(child);
+                if (objects.empty()) { objects.insert(""); }
+                animated.hidden.merge(objects);
+            }
+        } else if (auto turn = unless_faulty(rotation_in_flight, child, animated.notes)) {
             expand(turn->objects, groups);
             add_turn(std::move(*turn), animated.turns);
         } else {
             ++animated.at_rest[kind];
             if (kind == "translate" || kind == "rotate") { add_shadows(child, animated.hidden); }
-            if (auto move = unless_faulty(placement_at_rest, file, child, animated.notes)) {
+            if (auto move = unless_faulty(placement_at_rest, child, animated.notes)) {
                 expand(move->objects, groups);
                 animated.moves.push_back(std::move(*move));
             }
@@ -526,13 +509,13 @@ private:
         throw_error_in(path_, "expected a model's path in sim/model, got none");
     }
 
-    AffineTransform offsets(const fs::path& file, const XmlElement& parent) const {
+    AffineTransform offsets(const XmlElement& parent) const {
         const XmlElement* found = parent.find("offsets");
         if (found == nullptr) { return {}; }
-        const auto angle_rad = [&](std::string_view name) { return rad_from_deg(number_in(file, *found, name)); };
+        const auto angle_rad = [&](std::string_view name) { return rad_from_deg(number_in(*found, name)); };
         const glm::dmat3 turn = turn_about(2, angle_rad("heading-deg")) * turn_about(1, angle_rad("pitch-deg")) *
                                 turn_about(0, angle_rad("roll-deg"));
-        return {turn, {number_in(file, *found, "x-m"), number_in(file, *found, "y-m"), number_in(file, *found, "z-m")}};
+        return {turn, {number_in(*found, "x-m"), number_in(*found, "y-m"), number_in(*found, "z-m")}};
     }
 
     /// `about`: what turns all of it; null for what does not turn as a whole.
@@ -545,8 +528,8 @@ private:
             throw_error_in(file, fmt::format("expected models at most {} deep, got more", max_model_depth));
         }
         const XmlElement root = flightgear_tree(file);
-        AffineTransform own = parent.of(offsets(file, root));
-        const FlightGearAnimations animated = animations_of(file, root, own);
+        AffineTransform own = parent.of(offsets(root));
+        const FlightGearAnimations animated = animations_of(root, own);
         if (animated.hidden.contains("") && depth > 0) { return; }
         about = about == nullptr ? animated.axis_of("") : about;
         options_.pictures_in = flightgear_pictures(file, std::string(root.text_of("texture-path")));
@@ -564,14 +547,14 @@ private:
             if (child.name == "model" && !path.empty() && !is_hidden && holds_at_rest(child)) {
                 const RotationAxis* turned = about == nullptr && !name.empty() ? animated.axis_of(name) : about;
                 const AffineTransform moved = name.empty() ? own : own.of(animated.place_of(name));
-                take_named(file, path, moved.of(offsets(file, child)), {}, turned, depth);
+                take_named(file, path, moved.of(offsets(child)), {}, turned, depth);
             }
         }
     }
 
     /// Also moves `own`, the model, to where it stands at rest.
-    FlightGearAnimations animations_of(const fs::path& file, const XmlElement& root, AffineTransform& own) {
-        FlightGearAnimations animated = flightgear_animations(file, root);
+    FlightGearAnimations animations_of(const XmlElement& root, AffineTransform& own) {
+        FlightGearAnimations animated = flightgear_animations(root);
         own = own.of(animated.place_of(""));
         for (FlightGearRotation& turn : animated.turns) {
             turn.about.point_m = own.turn * turn.about.point_m + own.shift_m;

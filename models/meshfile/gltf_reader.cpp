@@ -621,20 +621,20 @@ private:
         return made;
     }
 
+    void check_colour(const glm::dvec3& colour, const std::string& where) const {
+        if (const auto fault = colour_fault(colour)) {
+            data_.refuse(where, "a colour of 0 to 1", fmt::format("{}", *fault));
+        }
+    }
+
     void take_colours(const GltfAccessor& colours, std::uint32_t first, std::size_t count, const std::string& where) {
         if (colours.parts() < 3 || colours.count() != count) {
             data_.refuse(where, fmt::format("a COLOR_0 of 3 or 4 numbers for each of {} places", count),
                 fmt::format("{} of {}", colours.count(), colours.parts()));
         }
         for (std::size_t i = 0; i < count; ++i) {
-            glm::dvec3 colour;
-            for (int part = 0; part < 3; ++part) {
-                const double value = colours.at(i, part);
-                if (!(value >= 0.0 && value <= 1.0)) { // also NaN
-                    data_.refuse(where, "colours of 0 to 1", fmt::format("{}", value));
-                }
-                colour[part] = value;
-            }
+            const glm::dvec3 colour(colours.at(i, 0), colours.at(i, 1), colours.at(i, 2));
+            check_colour(colour, where);
             mesh_.set_colour(first + static_cast<std::uint32_t>(i), glm::vec3(srgb_from_linear(colour)));
         }
     }
@@ -709,12 +709,9 @@ private:
         const auto rough = json.find("pbrMetallicRoughness");
         if (rough != json.end() && rough->is_object()) {
             const auto c = data_.numbers(*rough, "baseColorFactor", {1.0, 1.0, 1.0, 1.0}, where);
-            for (std::size_t part = 0; part < 3; ++part) {
-                if (!(c[part] >= 0.0 && c[part] <= 1.0)) {
-                    data_.refuse(where, "a colour of 0 to 1", fmt::format("{}", c[part]));
-                }
-            }
-            made.colour = glm::vec3(srgb_from_linear({c[0], c[1], c[2]}));
+            const glm::dvec3 colour(c[0], c[1], c[2]);
+            check_colour(colour, where);
+            made.colour = glm::vec3(srgb_from_linear(colour));
             if (json.value("alphaMode", Json()) == "BLEND") {
                 opacity = static_cast<float>(std::clamp(c[3], 0.0, 1.0));
             }

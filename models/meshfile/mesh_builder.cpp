@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cctype>
 #include <cmath>
 #include <fmt/format.h>
 #include <utility>
@@ -97,6 +98,22 @@ bool is_good(const std::array<glm::vec2, 3>& places) {
 }
 
 } // namespace
+
+std::string lower_case(std::string text) {
+    std::ranges::transform(text, text.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return text;
+}
+
+bool names_shadow(std::string_view lower_name) {
+    return lower_name.find("shadow") != lower_name.npos && lower_name.find("noshadow") == lower_name.npos;
+}
+
+std::optional<double> colour_fault(const glm::dvec3& colour) {
+    for (int part = 0; part < 3; ++part) {
+        if (!(colour[part] >= 0.0 && colour[part] <= 1.0)) { return colour[part]; }
+    }
+    return std::nullopt;
+}
 
 fs::path picture_file(const fs::path& mesh_file, const std::string& name, const fs::path& folder) {
     std::string slashes = name;
@@ -252,6 +269,12 @@ std::uint32_t MeshBuilder::add_material(Material material, float opacity) {
     mesh_.materials.push_back(std::move(material));
     opacities_.push_back(opacity);
     return static_cast<std::uint32_t>(mesh_.materials.size() - 1);
+}
+
+std::uint32_t MeshBuilder::face_colour_material(const glm::vec3& colour) {
+    const auto [at, is_new] = face_colours_.try_emplace({colour.x, colour.y, colour.z}, invalid_index);
+    if (is_new) { at->second = add_material({fmt::format("face colour {}", face_colours_.size()), colour}); }
+    return at->second;
 }
 
 void MeshBuilder::add_polygon(std::span<const CornerIndices> corners, std::uint32_t material, std::uint32_t picture) {

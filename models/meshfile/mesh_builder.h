@@ -1,8 +1,7 @@
 #pragma once
 
 #include "models/heights/image.h"
-#include "models/meshfile/mesh_join.h"
-#include "models/meshfile/mesh_parts.h"
+#include "models/meshfile/mesh_file.h"
 #include "models/triangle_mesh.h"
 
 #include <glm/vec2.hpp>
@@ -14,6 +13,7 @@
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -26,6 +26,15 @@ namespace octant::models::meshfile {
 /// in `folder` (empty: not searched) and in the mesh's folder; returns a path in the mesh's folder if no file exists.
 std::filesystem::path picture_file(
     const std::filesystem::path& mesh_file, const std::string& name, const std::filesystem::path& folder = {});
+
+/// The text with ASCII letters in lower case.
+std::string lower_case(std::string text);
+
+/// Whether a name in lower case says that an object represents a shadow on the ground.
+bool names_shadow(std::string_view lower_name);
+
+/// The first part of a colour outside 0..1 (also NaN); nothing for a valid colour.
+std::optional<double> colour_fault(const glm::dvec3& colour);
 
 /// The texture pictures of a mesh, and the vertex colours computed from them.
 class BakedPictures {
@@ -135,6 +144,9 @@ public:
     /// `opacity` is 0..1.
     std::uint32_t add_material(Material material, float opacity = 1.0F);
 
+    /// The material of all faces to which the file gives this colour; added when it is first used.
+    std::uint32_t face_colour_material(const glm::vec3& colour);
+
     /// Sets the group (index into ReadOptions::groups) of the polygons added next; invalid_index: none.
     void set_group(std::uint32_t group) { group_ = group; }
 
@@ -174,6 +186,7 @@ private:
     BakedPictures pictures_;
     TriangleMesh mesh_;
     std::vector<bool> faulty_normals_;
+    std::map<std::array<float, 3>, std::uint32_t> face_colours_;
     std::vector<glm::dvec3> places_m_;         ///< corners of the polygon being added
     std::vector<float> opacities_;             ///< one for each material
     std::vector<bool> two_sided_;              ///< one for each triangle

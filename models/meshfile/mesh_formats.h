@@ -47,16 +47,16 @@ bool has_vertex_normals(const TriangleMesh& mesh);
 /// A binary STL file: coordinates in float, one normal a triangle, nothing else.
 std::string stl_bytes(const TriangleMesh& mesh);
 
-/// glTF 2.0 with its data inside, as JSON text or as a binary file: coordinates and colours (linear in light, as glTF
-/// has them) in float, a primitive a material. A vertex of several normals or texture coordinates is written once for
-/// each. Coordinates count from gltf_origin_m, the translation of the node. PNG and JPEG pictures are written into the
-/// file. Where coordinates of a glTF file count from: 0 where the bounding box is near it, else a point in its middle
-/// with coordinates in float, so that less of their digits is lost.
+/// The origin of the coordinates in a glTF file, the translation of its node: 0 where the bounding box is near it, else
+/// a point in the middle of the box with coordinates in float, so that coordinates lose fewer digits.
 glm::dvec3 gltf_origin_m(const BoundingBox& bounds);
 
 /// Whether the bytes are of a picture that glTF files may hold: PNG or JPEG.
 bool is_gltf_picture(std::string_view bytes);
 
+/// glTF 2.0 with its data inside, as JSON text or as a binary file: coordinates and colours (linear in light, as glTF
+/// has them) in float, a primitive a material. A vertex of several normals or texture coordinates is written once for
+/// each. PNG and JPEG pictures are written into the file.
 std::string gltf_text(const TriangleMesh& mesh);
 std::string glb_bytes(const TriangleMesh& mesh);
 

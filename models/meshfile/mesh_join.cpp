@@ -6,7 +6,6 @@
 #include <glm/matrix.hpp>
 
 #include <cmath>
-#include <utility>
 
 namespace octant::models::meshfile {
 

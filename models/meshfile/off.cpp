@@ -6,9 +6,7 @@
 #include "sim/base/text_scanner.h"
 
 #include <algorithm>
-#include <array>
 #include <fmt/format.h>
-#include <map>
 #include <optional>
 
 namespace octant::models::meshfile {
@@ -119,7 +117,7 @@ private:
         const int line = words_.line_number();
         const std::vector<std::string_view> rest = split_words(words_.rest_of_line());
         has_map_colours_ = has_map_colours_ || rest.size() == 1;
-        const std::uint32_t material = rest.size() < 2 ? invalid_index : material_of(colour(rest, line));
+        const std::uint32_t material = rest.size() < 2 ? invalid_index : mesh_.face_colour_material(colour(rest, line));
         if (count < 3) {
             ++small_faces_;
         } else {
@@ -144,12 +142,6 @@ private:
         return glm::vec3(parts);
     }
 
-    std::uint32_t material_of(const glm::vec3& colour) {
-        const auto [at, is_new] = materials_.try_emplace({colour.x, colour.y, colour.z}, invalid_index);
-        if (is_new) { at->second = mesh_.add_material({fmt::format("face colour {}", materials_.size()), colour}); }
-        return at->second;
-    }
-
     /// The line's words from one on.
     static std::string_view text_of(const std::vector<std::string_view>& words, std::size_t from) {
         return {words[from].data(), words.back().end()};
@@ -165,7 +157,6 @@ private:
     MeshBuilder mesh_;
     std::filesystem::path path_;
     std::vector<CornerIndices> corners_;
-    std::map<std::array<float, 3>, std::uint32_t> materials_; ///< by colours of faces
     std::size_t small_faces_ = 0;
     bool has_map_colours_ = false;
 };

@@ -445,10 +445,8 @@ private:
     }
 
     void check_colour(const glm::dvec3& colour, int line) const {
-        for (int part = 0; part < 3; ++part) {
-            if (colour[part] < 0.0 || colour[part] > 1.0) {
-                refuse(line, "colours of numbers 0..1", fmt::format("{}", colour[part]));
-            }
+        if (const auto fault = colour_fault(colour)) {
+            refuse(line, "colours of numbers 0..1", fmt::format("{}", *fault));
         }
     }
 
@@ -514,8 +512,8 @@ private:
         }
         if (!faces.counter_clockwise) { std::ranges::reverse(polygon_); }
         if (!faces.colours.empty() && !faces.colour_per_vertex) {
-            material = face_material(faces.colours[attribute(
-                faces, faces.colour_indices, false, face, first, faces.colours.size(), "a colour")]);
+            material = mesh_.face_colour_material(glm::vec3(faces.colours[attribute(
+                faces, faces.colour_indices, false, face, first, faces.colours.size(), "a colour")]));
         }
         mesh_.add_polygon(polygon_, material);
     }
@@ -537,15 +535,6 @@ private:
         return at->second;
     }
 
-    /// The material that stands for a colour of whole faces.
-    std::uint32_t face_material(const glm::dvec3& colour) {
-        const auto [at, is_new] = face_materials_.try_emplace({colour.x, colour.y, colour.z}, invalid_index);
-        if (is_new) {
-            at->second = mesh_.add_material({fmt::format("face colour {}", face_materials_.size()), glm::vec3(colour)});
-        }
-        return at->second;
-    }
-
     std::filesystem::path path_;
     VrmlFile file_;
     VrmlFields fields_;
@@ -556,7 +545,6 @@ private:
     std::size_t point_count_ = 0;
     std::vector<bool> coloured_; ///< vertices that have a colour
     std::map<std::tuple<std::uint32_t, float, float, float>, std::uint32_t> copies_;
-    std::map<std::tuple<double, double, double>, std::uint32_t> face_materials_;
     std::vector<CornerIndices> polygon_;
     std::size_t visits_ = 0;
     std::size_t numbers_ = 0; ///< met so far

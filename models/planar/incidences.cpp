@@ -10,7 +10,6 @@
 #include <cmath>
 #include <cstddef>
 #include <functional>
-#include <limits>
 #include <optional>
 
 namespace octant::models::planar {
@@ -25,13 +24,10 @@ constexpr int max_cells_an_axis = 128;
 } // namespace
 
 VertexGrid::VertexGrid(std::span<const glm::dvec3> points) {
-    glm::dvec3 most(std::numeric_limits<double>::lowest());
-    least_ = glm::dvec3(std::numeric_limits<double>::max());
-    for (const glm::dvec3& point : points) {
-        least_ = glm::min(least_, point);
-        most = glm::max(most, point);
-    }
-    const glm::dvec3 extent = points.empty() ? glm::dvec3(0.0) : most - least_;
+    Box box;
+    for (const glm::dvec3& point : points) { box.add(point); }
+    min_ = box.min;
+    const glm::dvec3 extent = points.empty() ? glm::dvec3(0.0) : box.max - box.min;
     const double largest = std::max({extent.x, extent.y, extent.z});
     const double an_axis =
         std::clamp(2.0 * std::cbrt(static_cast<double>(points.size())), 1.0, static_cast<double>(max_cells_an_axis));
@@ -48,7 +44,7 @@ VertexGrid::VertexGrid(std::span<const glm::dvec3> points) {
 }
 
 glm::ivec3 VertexGrid::cell_of(const glm::dvec3& point) const {
-    const glm::dvec3 at = glm::floor((point - least_) / cell_);
+    const glm::dvec3 at = glm::floor((point - min_) / cell_);
     return glm::ivec3(glm::clamp(at, glm::dvec3(0.0), glm::dvec3(cells_ - 1)));
 }
 
@@ -57,16 +53,16 @@ std::size_t VertexGrid::index_of(const glm::ivec3& cell) const {
     return static_cast<std::size_t>((cell.z * size.y + cell.y) * size.x + cell.x);
 }
 
-void VertexGrid::append_in_box(const glm::dvec3& least, const glm::dvec3& most, std::vector<std::uint32_t>& out) const {
-    const glm::ivec3 from = cell_of(least);
-    const glm::ivec3 to = cell_of(most);
+void VertexGrid::append_in_box(const glm::dvec3& min, const glm::dvec3& max, std::vector<std::uint32_t>& out) const {
+    const glm::ivec3 from = cell_of(min);
+    const glm::ivec3 to = cell_of(max);
     for (int z = from.z; z <= to.z; ++z) {
         for (int y = from.y; y <= to.y; ++y) {
             const std::size_t begin = first_[index_of({from.x, y, z})];
             const std::size_t end = first_[index_of({to.x, y, z}) + 1];
             for (std::size_t i = begin; i < end; ++i) {
                 const glm::dvec3& point = places_[i];
-                if (glm::all(glm::greaterThanEqual(point, least)) && glm::all(glm::lessThanEqual(point, most))) {
+                if (glm::all(glm::greaterThanEqual(point, min)) && glm::all(glm::lessThanEqual(point, max))) {
                     out.push_back(numbers_[i]);
                 }
             }
@@ -122,10 +118,7 @@ class ClosedOutline {
 public:
     ClosedOutline(std::span<const glm::dvec3> vertices, std::span<const std::uint32_t> corners)
         : vertices_(vertices), corners_(corners) {
-        for (const std::uint32_t corner : corners) {
-            least_ = glm::min(least_, vertices[corner]);
-            most_ = glm::max(most_, vertices[corner]);
-        }
+        for (const std::uint32_t corner : corners) { box_.add(vertices[corner]); }
         glm::dvec3 sum(0.0);
         for (std::size_t i = 1; i + 1 < corners.size(); ++i) { sum += glm::cross(at(i) - at(0), at(i + 1) - at(0)); }
         const double area = glm::length(sum);
@@ -133,9 +126,7 @@ public:
         normal_ = has_plane_ ? sum / area : sum;
     }
 
-    const glm::dvec3& least() const { return least_; }
-
-    const glm::dvec3& most() const { return most_; }
+    const Box& box() const { return box_; }
 
     bool touches(const glm::dvec3& point, double reach) const {
         if (!is_level_with(point, reach)) { return false; }
@@ -178,8 +169,7 @@ private:
 
     std::span<const glm::dvec3> vertices_;
     std::span<const std::uint32_t> corners_;
-    glm::dvec3 least_{std::numeric_limits<double>::max()};
-    glm::dvec3 most_{std::numeric_limits<double>::lowest()};
+    Box box_;
     glm::dvec3 normal_{0.0};
     bool has_plane_ = false;
 };
@@ -188,7 +178,7 @@ private:
 void add_touching(Incidence& incidence, const ClosedOutline& outline, const VertexGrid& near,
     std::span<const glm::dvec3> vertices, double reach, const std::function<bool(std::uint32_t)>& may_touch) {
     std::vector<std::uint32_t> found;
-    near.append_in_box(outline.least() - reach, outline.most() + reach, found);
+    near.append_in_box(outline.box().min - reach, outline.box().max + reach, found);
     for (const std::uint32_t vertex : found) {
         if (may_touch(vertex) && std::ranges::find(incidence.corners, vertex) == incidence.corners.end() &&
             outline.touches(vertices[vertex], reach)) {
@@ -210,14 +200,14 @@ void join_planes(std::vector<Incidence>& incidences, const std::vector<std::opti
     for (std::uint32_t i = 0; i < outlines.size(); ++i) {
         if (outlines[i]) { by_x.push_back(i); }
     }
-    std::ranges::stable_sort(by_x, {}, [&](std::uint32_t i) { return outlines[i]->least().x; });
+    std::ranges::stable_sort(by_x, {}, [&](std::uint32_t i) { return outlines[i]->box().min.x; });
     for (std::size_t i = 0; i < by_x.size(); ++i) {
         const ClosedOutline& a = *outlines[by_x[i]];
         for (std::size_t j = i + 1; j < by_x.size(); ++j) {
             const ClosedOutline& b = *outlines[by_x[j]];
-            if (b.least().x > a.most().x + reach) { break; }
-            const bool apart = b.least().y > a.most().y + reach || a.least().y > b.most().y + reach ||
-                               b.least().z > a.most().z + reach || a.least().z > b.most().z + reach;
+            if (b.box().min.x > a.box().max.x + reach) { break; }
+            const bool apart = glm::any(glm::greaterThan(b.box().min, a.box().max + reach)) ||
+                               glm::any(glm::greaterThan(a.box().min, b.box().max + reach));
             Incidence& of_a = incidences[by_x[i]];
             Incidence& of_b = incidences[by_x[j]];
             if (!apart && kind[of_a.corners[0]] == kind[of_b.corners[0]] && a.covers(b, reach)) {

@@ -2,13 +2,28 @@
 
 #include "models/polygons/polygon_model.h"
 
+#include <glm/common.hpp>
 #include <glm/vec3.hpp>
 
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
 namespace octant::models::planar {
+
+/// The axis-parallel box around some points.
+struct Box {
+    glm::dvec3 min{std::numeric_limits<double>::max()};
+    glm::dvec3 max{std::numeric_limits<double>::lowest()};
+
+    void add(const glm::dvec3& point) {
+        min = glm::min(min, point);
+        max = glm::max(max, point);
+    }
+
+    glm::dvec3 middle() const { return min + (max - min) / 2.0; }
+};
 
 /// A uniform grid that finds points by position.
 class VertexGrid {
@@ -16,7 +31,7 @@ public:
     explicit VertexGrid(std::span<const glm::dvec3> points);
 
     /// Appends the indices of all points in a closed box.
-    void append_in_box(const glm::dvec3& least, const glm::dvec3& most, std::vector<std::uint32_t>& out) const;
+    void append_in_box(const glm::dvec3& min, const glm::dvec3& max, std::vector<std::uint32_t>& out) const;
 
     /// Appends the indices of all points within `reach` of a line segment. Some are appended more than once, and some
     /// points farther away are appended too.
@@ -24,7 +39,7 @@ public:
         const glm::dvec3& from, const glm::dvec3& to, double reach, std::vector<std::uint32_t>& out) const;
 
 private:
-    glm::dvec3 least_{0.0};
+    glm::dvec3 min_{0.0};
     double cell_ = 1.0;
     glm::ivec3 cells_{1};
     std::vector<std::uint32_t> first_; ///< for each cell its first entry in numbers_, then the end

@@ -25,6 +25,7 @@ namespace octant::models::planar {
 namespace {
 
 using polygons::PolygonModel;
+using Outline = std::vector<std::uint32_t>; ///< vertices of a polygon, in order
 
 /// A corner within the reach of a side and the side itself may both have been moved since, when their polygons were
 /// made planar.
@@ -418,7 +419,7 @@ struct Side {
     double length = 0.0;
 };
 
-std::vector<Side> sides_of(const polygons::PolygonModel& model, std::span<const glm::dvec3> points) {
+std::vector<Side> sides_of(const PolygonModel& model, std::span<const glm::dvec3> points) {
     std::vector<Side> sides;
     const std::size_t step = model.corner_vertices.size() / max_sides + 1;
     std::size_t number = 0;
@@ -501,7 +502,7 @@ std::vector<glm::dvec3> across(const glm::dvec3& axis, const std::vector<Side>& 
 /// Axes that turn with a model, as the columns of a rotation: the first is the side of a polygon along or across which
 /// most of the length of all sides lies, the second the best one across it. Of a model that is built along its file's
 /// axes they are these, in some order. What turns is left out. `points` are the vertices in any unit.
-glm::dmat3 own_axes(const polygons::PolygonModel& model, std::span<const glm::dvec3> points) {
+glm::dmat3 own_axes(const PolygonModel& model, std::span<const glm::dvec3> points) {
     const std::vector<Side> sides = sides_of(model, points);
     if (sides.empty()) { return glm::dmat3(1.0); }
     const std::vector<Side> tried = tried_of(sides);
@@ -552,9 +553,6 @@ double decimal_grid(std::span<const glm::dvec3> points) {
 
 namespace {
 
-using polygons::Pivot;
-using Outline = std::vector<std::uint32_t>;
-
 /// No point moves farther than so many times the reach.
 constexpr double moves_in_reaches = 4.0;
 /// A polygon whose height over its longest side is less has no area.
@@ -565,19 +563,6 @@ constexpr double min_height = planar_tolerance;
 glm::dvec3 in_steps(const PlanarModel& frame, const glm::dvec3& point_m) {
     return frame.grid_m > 0.0 ? glm::round(point_m / frame.grid_m) : point_m;
 }
-
-/// The box around some points.
-struct Box {
-    glm::dvec3 least{std::numeric_limits<double>::max()};
-    glm::dvec3 most{std::numeric_limits<double>::lowest()};
-
-    void add(const glm::dvec3& point) {
-        least = glm::min(least, point);
-        most = glm::max(most, point);
-    }
-
-    glm::dvec3 middle() const { return least + (most - least) / 2.0; }
-};
 
 /// A point in own axes from the base of the frame, in steps.
 glm::dvec3 from_base(const PlanarModel& frame, const glm::dvec3& point_m) {
@@ -718,7 +703,7 @@ PlanarModel planar_model(const PolygonModel& model, Attitude attitude) {
     if (model.vertices_m.empty()) { return planar; }
     find_frame(model, attitude, planar);
     for (glm::dvec3& vertex : planar.model.vertices_m) { vertex = in_radii(planar, vertex); }
-    for (Pivot& pivot : planar.model.pivots) {
+    for (polygons::Pivot& pivot : planar.model.pivots) {
         const glm::dvec3 point_steps = pivot.point_m / planar.step_m() - planar.base_steps;
         pivot.point_m = (point_steps * planar.axes - planar.centre_steps) / planar.radius_steps;
         pivot.axis = pivot.axis * planar.axes;

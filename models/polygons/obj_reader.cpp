@@ -15,7 +15,6 @@
 #include <cstddef>
 #include <filesystem>
 #include <fmt/format.h>
-#include <limits>
 #include <map>
 #include <optional>
 #include <set>

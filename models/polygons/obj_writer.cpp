@@ -3,7 +3,6 @@
 #include "sim/base/format_once.h"
 #include "sim/base/output_file.h"
 
-#include <array>
 #include <cmath>
 #include <fmt/format.h>
 #include <iterator>

@@ -10,7 +10,6 @@
 #include <cstddef>
 #include <fmt/format.h>
 #include <map>
-#include <utility>
 #include <vector>
 
 namespace octant::models::polygons {

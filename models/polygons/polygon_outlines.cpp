@@ -66,6 +66,13 @@ namespace {
 /// Twice an area over the product of two lengths below which three points are on one line.
 constexpr double on_line = 1e-12;
 
+/// Positive when the path a -> b -> c turns left: twice the area of the triangle.
+double turn_of(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c) {
+    const glm::dvec2 first = b - a;
+    const glm::dvec2 second = c - a;
+    return first.x * second.y - first.y * second.x;
+}
+
 /// -1, 0 or 1: on which side of the line a -> b a point lies.
 int side_of(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& point) {
     const double turn = turn_of(a, b, point);
@@ -106,16 +113,6 @@ std::vector<glm::dvec2> projected_outline(std::span<const glm::dvec3> corners_m)
     }
     return outline;
 }
-
-} // namespace
-
-double turn_of(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c) {
-    const glm::dvec2 first = b - a;
-    const glm::dvec2 second = c - a;
-    return first.x * second.y - first.y * second.x;
-}
-
-namespace {
 
 /// Finds the first two sides of an outline that meet other than at a common corner, by the indices of their first
 /// corners. Neighbours that fold back onto each other count too. Time grows with the square of the number of corners.

@@ -13,7 +13,6 @@
 #include <ranges>
 #include <span>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace octant::models::polygons {
@@ -46,9 +45,6 @@ bool is_inside(std::span<const glm::dvec3> corners, const glm::dvec3& normal, co
 
 /// The distance of a point from the nearest side of an outline, ends included.
 double distance_to_sides(std::span<const glm::dvec3> corners, const glm::dvec3& point);
-
-/// Positive when the path a -> b -> c turns left: twice the area of the triangle.
-double turn_of(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c);
 
 /// Cuts a polygon of at least three corners into triangles, given by indices into `corners_m` in the polygon's
 /// orientation. A strictly convex polygon becomes a fan around its first corner. Other polygons are cut by ear clipping

@@ -15,7 +15,6 @@
 #include <cmath>
 #include <cstddef>
 #include <functional>
-#include <iterator>
 #include <optional>
 #include <queue>
 #include <vector>

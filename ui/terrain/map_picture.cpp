@@ -118,11 +118,7 @@ struct MapFrameInPicture {
     double height_m(double x_px, double y_px) const {
         const double column = std::clamp(x_px / px_per_sample - 0.5, 0.0, ground.columns() - 1.001);
         const double row = std::clamp((height_px - y_px) / px_per_sample - 0.5, 0.0, ground.rows() - 1.001);
-        const int x = static_cast<int>(column);
-        const int y = static_cast<int>(row);
-        const double south = glm::mix(ground.height_m(x, y), ground.height_m(x + 1, y), column - x);
-        const double north = glm::mix(ground.height_m(x, y + 1), ground.height_m(x + 1, y + 1), column - x);
-        return glm::mix(south, north, row - y);
+        return models::heights::bilinear_height_at_sample(ground, {column, row});
     }
 
     glm::dvec2 pixel_of(const glm::dvec2& place_m) const {

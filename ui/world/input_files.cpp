@@ -1,8 +1,8 @@
 #include "ui/world/input_files.h"
 
 #include "models/heights/map_inputs.h"
+#include "models/meshfile/flightgear_xml.h"
 #include "models/meshfile/mesh_join.h"
-#include "models/meshfile/xml_tree.h"
 #include "models/polygons/obj_reader.h"
 #include "sim/base/error.h"
 #include "sim/base/hash.h"
@@ -55,7 +55,7 @@ public:
             } else if (ending == ".gltf") {
                 add_gltf_references(file);
             } else if (ending == ".xml") {
-                add_xml_references(file, models::meshfile::xml_tree(file, text_of(file)));
+                add_xml_references(file, models::meshfile::read_xml(file));
             }
         } catch (const Error&) { // whoever loads it says so
         }

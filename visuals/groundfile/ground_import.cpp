@@ -34,7 +34,6 @@
 namespace octant::visuals::groundfile {
 
 namespace heights = models::heights;
-using heights::void_height_m;
 using std::filesystem::path;
 
 namespace {
@@ -48,6 +47,9 @@ constexpr std::size_t max_samples_at_once = std::size_t{1} << 22U;
 constexpr int rectangle_edge = 1024;
 constexpr int margin = 32; ///< Samples around a piece that take part in its smoothing.
 
+/// Marks a sample without data while a ground is imported.
+constexpr std::int16_t void_number = std::numeric_limits<std::int16_t>::min();
+
 struct Field {
     std::span<std::int16_t> numbers;
     int columns;
@@ -60,7 +62,7 @@ struct Field {
 };
 
 float height_of(std::int16_t number) {
-    return number == void_height_m ? std::numeric_limits<float>::quiet_NaN() : static_cast<float>(number);
+    return number == void_number ? std::numeric_limits<float>::quiet_NaN() : static_cast<float>(number);
 }
 
 /// A rectangle of samples; east and north are one past the last.
@@ -74,7 +76,7 @@ struct SampleRectangle {
 bool has_voids(const Field& field, const SampleRectangle& piece) {
     for (int row = piece.south; row < piece.north; ++row) {
         const std::int16_t* const start = &field.at(0, row);
-        if (std::find(start + piece.west, start + piece.east, void_height_m) != start + piece.east) { return true; }
+        if (std::find(start + piece.west, start + piece.east, void_number) != start + piece.east) { return true; }
     }
     return false;
 }
@@ -85,7 +87,7 @@ void write_filled(
     for (int row = piece.south; row < piece.north; ++row) {
         for (int column = piece.west; column < piece.east; ++column) {
             std::int16_t& number = field.at(column, row);
-            if (number == void_height_m) {
+            if (number == void_number) {
                 number = static_cast<std::int16_t>(std::lround(grid.at(column - of.west, row - of.south)));
             }
         }
@@ -136,57 +138,30 @@ void fill_integer_voids(std::span<std::int16_t> numbers, int columns, int rows) 
     }
 }
 
-void take_range(double lowest_m, double highest_m, ImportProgress& progress) {
-    progress.lowest_m = std::min(progress.lowest_m, lowest_m);
-    progress.highest_m = std::max(progress.highest_m, highest_m);
-}
-
-void read_integer_metres(
-    heights::HeightSource& source, int first_row, std::span<std::int16_t> numbers, ImportProgress& progress) {
-    source.read(first_row, numbers);
-    std::int16_t lowest_m = std::numeric_limits<std::int16_t>::max();
-    std::int16_t highest_m = void_height_m;
-    int voids = 0;
-    for (const std::int16_t number : numbers) {
-        const bool is_void = number == void_height_m;
-        voids += is_void ? 1 : 0;
-        lowest_m = std::min(lowest_m, is_void ? lowest_m : number);
-        highest_m = std::max(highest_m, number);
-    }
-    progress.voids += voids;
-    if (static_cast<std::size_t>(voids) < numbers.size()) { take_range(lowest_m, highest_m, progress); }
-}
-
-void read_fractions(
-    heights::HeightSource& source, int first_row, std::span<std::int16_t> numbers, ImportProgress& progress) {
-    std::vector<float> heights_m(numbers.size());
-    source.read(first_row, heights_m);
-    const terrain::GroundShape shape = terrain::shape_of(1, 1, 1.0, progress.lowest_m, progress.highest_m);
-    for (std::size_t i = 0; i < numbers.size(); ++i) {
-        const bool is_void = std::isnan(heights_m[i]);
-        progress.voids += is_void ? 1 : 0;
-        numbers[i] = is_void ? void_height_m : terrain::stored_number(heights_m[i], shape);
+/// Updates the lowest and highest height in `progress`; NaN counts for nothing.
+void take_range(std::span<const float> heights_m, ImportProgress& progress) {
+    for (const double height_m : heights_m) {
+        progress.lowest_m = height_m < progress.lowest_m ? height_m : progress.lowest_m;
+        progress.highest_m = height_m > progress.highest_m ? height_m : progress.highest_m;
     }
 }
 
-/// Updates the lowest and highest height in `progress` by some rows.
-void scan_rows(heights::HeightSource& source, int first_row, int count, ImportProgress& progress) {
-    std::vector<float> heights_m(static_cast<std::size_t>(count) * static_cast<std::size_t>(source.columns()));
-    source.read(first_row, heights_m);
-    for (const float height_m : heights_m) {
-        if (!std::isnan(height_m)) { take_range(height_m, height_m, progress); }
-    }
-}
-
-/// Reads the rows that fill the span as the numbers to keep, void_height_m for samples without data. If the source has
+/// Reads the rows that fill the span as the numbers to keep, void_number for samples without data. If the source has
 /// whole metres, these are kept, and lowest and highest in `progress` are updated; otherwise the numbers are those of
 /// shape_of the scanned heights. Counts voids. Throws Error as the source does.
 void read_rows(
     heights::HeightSource& source, int first_row, std::span<std::int16_t> numbers, ImportProgress& progress) {
-    if (source.has_integer_metres()) {
-        read_integer_metres(source, first_row, numbers, progress);
-    } else {
-        read_fractions(source, first_row, numbers, progress);
+    std::vector<float> heights_m(numbers.size());
+    source.read(first_row, heights_m);
+    const bool is_integer = source.has_integer_metres();
+    if (is_integer) { take_range(heights_m, progress); }
+    const terrain::GroundShape shape = terrain::shape_of(1, 1, 1.0, progress.lowest_m, progress.highest_m);
+    for (std::size_t i = 0; i < numbers.size(); ++i) {
+        const bool is_void = std::isnan(heights_m[i]);
+        progress.voids += is_void ? 1 : 0;
+        numbers[i] = is_void      ? void_number
+                     : is_integer ? static_cast<std::int16_t>(heights_m[i])
+                                  : terrain::stored_number(heights_m[i], shape);
     }
 }
 
@@ -329,8 +304,12 @@ private:
     }
 
     void scan() {
-        for_each_band(ImportStage::Scanning,
-            [&](int first_row, int count) { read_inputs([&] { scan_rows(source_, first_row, count, progress_); }); });
+        std::vector<float> heights_m;
+        for_each_band(ImportStage::Scanning, [&](int first_row, int count) {
+            heights_m.resize(static_cast<std::size_t>(count) * static_cast<std::size_t>(source_.columns()));
+            read_inputs([&] { source_.read(first_row, heights_m); });
+            take_range(heights_m, progress_);
+        });
         progress_.stage = Stage::Reading;
         progress_.rows_done = 0;
     }

@@ -283,13 +283,9 @@ private:
         const auto spacing_m = static_cast<float>(ground_.spacing_m());
         const float east_m = static_cast<float>(place.column) * (spacing_m / subdivisions);
         const float north_m = static_cast<float>(place.row) * (spacing_m / subdivisions);
-        const float right = (east_m - a.east_m) / spacing_m;
-        const float up = (north_m - a.north_m) / spacing_m;
-        const auto between = [&](auto low, auto low_right, auto high, auto high_right) {
-            return glm::mix(glm::mix(low, low_right, right), glm::mix(high, high_right, right), up);
-        };
-        return {east_m, north_m, between(a.height_m, b.height_m, c.height_m, d.height_m),
-            glm::normalize(between(a.normal, b.normal, c.normal, d.normal))};
+        const glm::vec2 share = (glm::vec2(east_m, north_m) - glm::vec2(a.east_m, a.north_m)) / spacing_m;
+        return {east_m, north_m, models::heights::bilinear(a.height_m, b.height_m, c.height_m, d.height_m, share),
+            glm::normalize(models::heights::bilinear(a.normal, b.normal, c.normal, d.normal, share))};
     }
 
     /// By samples around, the nearer ones counting like the farther ones.

@@ -531,12 +531,7 @@ constexpr double max_squares = 700.0; ///< a side
 double height_at(const terrain::GroundSamples& ground, const glm::dvec2& place_m) {
     const glm::dvec2 last(ground.columns() - 2, ground.rows() - 2);
     const glm::dvec2 grid = glm::clamp(ground.grid_from_world(place_m.x, place_m.y), glm::dvec2(0.0), last);
-    const glm::ivec2 cell(grid);
-    const glm::dvec2 part = grid - glm::dvec2(cell);
-    const auto along = [&](int row) {
-        return glm::mix(ground.height_m(cell.x, row), ground.height_m(cell.x + 1, row), part.x);
-    };
-    return glm::mix(along(cell.y), along(cell.y + 1), part.y);
+    return models::heights::bilinear_height_at_sample(ground, grid);
 }
 
 /// Whether the middle line of a piece is nearer to a place than so much.

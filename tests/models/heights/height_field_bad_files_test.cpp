@@ -1,7 +1,7 @@
 #include "models/heights/height_field_import.h"
 #include "sim/base/error.h"
 #include "sim/base/output_file.h"
-#include "tests/models/heights/height_files.h"
+#include "tests/models/heights/sample_maps.h"
 #include "tests/scratch.h"
 
 #include <catch2/catch.hpp>

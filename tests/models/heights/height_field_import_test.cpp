@@ -3,7 +3,7 @@
 #include "sim/base/error.h"
 #include "sim/base/output_file.h"
 #include "sim/base/text_file.h"
-#include "tests/models/heights/height_files.h"
+#include "tests/models/heights/sample_maps.h"
 #include "tests/real_files.h"
 
 #include <catch2/catch.hpp>

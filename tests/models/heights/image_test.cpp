@@ -1,6 +1,6 @@
 #include "models/heights/height_field_import.h"
 #include "models/heights/image.h"
-#include "tests/models/heights/height_files.h"
+#include "tests/models/heights/sample_maps.h"
 
 #include <catch2/catch.hpp>
 

@@ -1,5 +1,5 @@
+#include "models/meshfile/flightgear_xml.h"
 #include "models/meshfile/mesh_file.h"
-#include "models/meshfile/xml_tree.h"
 #include "tests/models/meshfile/mesh_samples.h"
 
 #include <catch2/catch.hpp>
@@ -80,6 +80,11 @@ TEST_CASE("a FlightGear model includes files and names groups of objects") {
     CHECK(model.body.triangles.size() == 2); // the sub-model
     REQUIRE(model.parts.size() == 1);
     CHECK(model.parts[0].about.direction == glm::dvec3(0.0, 1.0, 0.0));
+    file_with("faulty-spin.xml", "<PropertyList>\n<type>range</type>\n<min-m>1,5</min-m></PropertyList>");
+    CHECK_THAT(read_mesh(file_with("spinning.xml", "<PropertyList><path>square.ac</path><animation include="
+                                                   "'faulty-spin.xml'/></PropertyList>"))
+                   .notes.front(),
+        Catch::Contains("faulty-spin.xml:3: expected a number, got '1,5'"));
     CHECK_THROWS_WITH(
         read_mesh(file_with("endless.xml", "<PropertyList include='endless.xml'><path>x.ac</path></PropertyList>")),
         Catch::Contains("expected includes at most 8 deep, got more"));
@@ -95,9 +100,8 @@ TEST_CASE("includes that multiply are refused, and words in other attributes inc
     CHECK_THROWS_WITH(
         read_mesh(file_with("most.xml", "<PropertyList include='many0.xml'><path>x.ac</path></PropertyList>")),
         Catch::Contains("expected at most 500 includes, got more"));
-    const auto quoted = file_with("quoted.xml", "<PropertyList note=\"use include='gone.xml'\" n='1'/>");
-    CHECK(xml_tree(quoted, "<a note=\"use include='b.xml'\" n='1'/>").include.empty());
-    CHECK(xml_tree(quoted, "<a n='1' include = \"b.xml\"/>").include == "b.xml");
+    CHECK(read_xml(file_with("quoted.xml", "<a note=\"use include='b.xml'\" n='1'/>")).include.empty());
+    CHECK(read_xml(file_with("quoted.xml", "<a n='1' include = \"b.xml\"/>")).include == "b.xml");
 }
 
 TEST_CASE("what a range shows from afar only is left out of a FlightGear model") {
@@ -205,12 +209,20 @@ TEST_CASE("what FlightGear shows under a condition is there if it holds at rest"
 
 TEST_CASE("faulty XML is refused in one line that says where") {
     const auto fault = [](const std::string& text) { return error_of("faulty.xml", text); };
-    CHECK(fault("") == "faulty.xml:1: expected an element, got the end of the file");
-    CHECK(fault("<a>\n<b>\n</a>") == "faulty.xml:3: expected </b>, got 'a'");
-    CHECK(fault("<a>\n<b") == "faulty.xml:2: expected '>', got the end of the file");
-    CHECK(fault("<a><!-- x") == "faulty.xml:1: expected '-->', got the end of the file");
-    const XmlElement root = xml_tree("x", "<a> 1 &lt; 2<b c='>'/><![CDATA[ <]]></a>");
-    CHECK(root.text == "1 < 2 <");
+    CHECK(fault("") == "faulty.xml:1: expected XML, got the end of the file (No document element found)");
+    CHECK(fault("<a>\n<b>\n</a>") == "faulty.xml:3: expected XML, got 'a>' (Start-end tags mismatch)");
+    CHECK(fault("<a>\n<b") == "faulty.xml:2: expected XML, got the end of the file (Error parsing start element tag)");
+    CHECK(fault("<a><!-- x") == "faulty.xml:1: expected XML, got the end of the file (Error parsing comment)");
+    CHECK(fault("<a n=1/>") == "faulty.xml:1: expected XML, got '1/>' (Error parsing element attribute)");
+    std::string deep;
+    for (int i = 0; i < 200'000; ++i) { deep += i == 101 ? "\n<a>" : "<a>"; }
+    CHECK_THAT(fault(deep), Catch::StartsWith("faulty.xml:2: expected XML, got the end of the file"));
+    for (int i = 0; i < 200'000; ++i) { deep += "</a>"; }
+    CHECK(fault(deep) == "faulty.xml:2: expected elements at most 100 deep, got a deeper one");
+    const XmlElement root = read_xml(file_with("good.xml", "\xef\xbb\xbf<!DOCTYPE a [<!ENTITY c 'x'>]>\n"
+                                                           "<a> 1 &lt; 2 &c;\xe9<b c='>'/>\n<![CDATA[ <]]></a>"));
+    CHECK(root.text == "1 < 2 &c;\xe9 <");
+    CHECK(root.line == 2);
     CHECK(root.find("b") != nullptr);
     CHECK(root.find("c") == nullptr);
 }

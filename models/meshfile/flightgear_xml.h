@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -21,7 +22,11 @@ struct XmlElement {
     std::string text;
     std::string include; ///< the attribute of this name; empty if missing
     std::vector<XmlElement> children;
+    std::shared_ptr<const std::filesystem::path> file;
     int line = 0;
+
+    /// Throws Error "file:line: expected ..., got ...".
+    [[noreturn]] void refuse(std::string_view expected, std::string_view got) const;
 
     /// The first child of this name; null if there is none.
     const XmlElement* find(std::string_view child) const;
@@ -30,8 +35,9 @@ struct XmlElement {
     std::string_view text_of(std::string_view child) const;
 };
 
-/// Parses an XML text and returns its root element, without comments, declarations and processing instructions. Reads
-/// no other file. Throws Error "file:line: expected ..., got ...".
-XmlElement xml_tree(const std::filesystem::path& file, std::string_view text);
+/// Reads an XML file and returns its first element; files that it includes are not opened. Bytes of text are kept as
+/// they are, whatever encoding the file declares, and unknown entities, too. Throws Error "file:line: expected ...,
+/// got ..." for faulty XML, for elements more than 100 deep and for files above 64 MiB.
+XmlElement read_xml(const std::filesystem::path& file);
 
 } // namespace octant::models::meshfile
