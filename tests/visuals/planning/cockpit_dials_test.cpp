@@ -17,7 +17,7 @@ TEST_CASE("both cockpits have room for five dials that are read at 720 lines") {
         INFO(kind.name);
         const auto layout = planning::dials_of(models::polygons::read_obj(folder / kind.cockpit_file), kind.limits);
         REQUIRE(layout.dials.size() == 5);
-        CHECK(layout.speed_kt.most > 0.0);
+        CHECK(layout.speed_kt.max > 0.0);
         const double px = 360.0 / std::tan(0.5 * 45.0 * 3.14159265358979 / 180.0);
         for (const overlay::Dial& dial : layout.dials) {
             const glm::dvec2 middle_px = px * glm::dvec2(dial.centre_m.y, dial.centre_m.z) / dial.centre_m.x;
