@@ -194,7 +194,7 @@ report::ResultTable shimmer_table(const PoppingStudyOptions& options) {
         settings::RunSettings settings = options.settings;
         settings.path.name = std::string(base::built_in_paths[i]);
         settings.surface.shadows = false;
-        settings.ground.lod.metric = scene::GroundMetric::ScreenError;
+        settings.ground.lod.metric = terrain::GroundMetric::ScreenError;
         changes[i] = shimmer_along(of_path, settings, ground);
     });
     Change all;
@@ -215,16 +215,16 @@ namespace {
 
 struct Meshing {
     const char* name;
-    scene::GroundMetric mesh;
+    terrain::GroundMetric mesh;
     bool geomorphs;
     bool near_detail;
 };
 
 /// The last one is measured where near detail is asked for.
-constexpr std::array meshings = {Meshing{"midpoint, exact budget", scene::GroundMetric::Midpoint, false, false},
-    Meshing{"screen-error, no geomorphs", scene::GroundMetric::ScreenError, false, false},
-    Meshing{"screen-error, geomorphs", scene::GroundMetric::ScreenError, true, false},
-    Meshing{"screen-error, geomorphs, near detail", scene::GroundMetric::ScreenError, true, true}};
+constexpr std::array meshings = {Meshing{"midpoint, exact budget", terrain::GroundMetric::Midpoint, false, false},
+    Meshing{"screen-error, no geomorphs", terrain::GroundMetric::ScreenError, false, false},
+    Meshing{"screen-error, geomorphs", terrain::GroundMetric::ScreenError, true, false},
+    Meshing{"screen-error, geomorphs, near detail", terrain::GroundMetric::ScreenError, true, true}};
 
 std::span<const Meshing> meshings_of(const settings::RunSettings& settings) {
     return std::span(meshings).first(meshings.size() - (settings.ground.near_detail ? 0 : 1));
@@ -265,7 +265,7 @@ MeshOfFrame given_ground(
 
 /// The ground of a flight as it is drawn, with detail near the eye in the same budget, but nothing that stands on it.
 MeshOfFrame ground_with_detail(settings::RunSettings settings) {
-    settings.ground.lod.metric = scene::GroundMetric::ScreenError;
+    settings.ground.lod.metric = terrain::GroundMetric::ScreenError;
     settings.ground.scenery = false;
     const std::shared_ptr<visuals::landscape::GroundMesher> mesher =
         world::load_world(settings).scene.ground->mesher(visuals::landscape::mesh_settings(settings, false));
@@ -320,7 +320,7 @@ std::vector<JumpsByMeshing> jumps_of_paths(const PoppingStudyOptions& options) {
     const int asked = scene::triangle_target(options.settings);
     const auto few = world::few_samples_note(options.settings.path.terrain, {samples.columns(), samples.rows()}, asked,
         "--triangles with fewer, or --terrain with a larger map");
-    base::print_note(options.quiet || asked == scene::unlimited_triangles || !few, few.value_or(""));
+    base::print_note(options.quiet || asked == terrain::unlimited_triangles || !few, few.value_or(""));
     std::vector<settings::RunSettings> flown(base::built_in_paths.size(), options.settings);
     std::vector<std::vector<flight::FlightCamera>> cameras;
     for (std::size_t path = 0; path < flown.size(); ++path) {
