@@ -55,7 +55,7 @@ void add_terrain_options(std::vector<Option>& table, std::string& terrain, model
 /// What refines the mesh, without its budget. `more` are further keys of --terrain-mesh.
 void add_mesh_options(std::vector<Option>& table, terrain::GroundMeshOptions& options, bool& curved,
     const std::vector<FamilyKey>& more = {}) {
-    visuals::scene::TerrainLod& lod = options.lod;
+    visuals::terrain::TerrainLod& lod = options.lod;
     table.push_back(
         value_option({"terrain-lod", "KIND[:KEY=VALUE,...]",
                          "screen-error (longest-edge bisection by error in pixels), or the paper's quadtree: "
@@ -491,7 +491,7 @@ void check(CheckOptions options) {
     ui::terrain::TerrainCheck asked = options.check;
     asked.quiet = options.quiet;
     asked.earth_radius_m = options.view.earth_radius_m;
-    asked.by_error = visuals::scene::ground_metric(options.mesh.lod) == visuals::scene::GroundMetric::ScreenError;
+    asked.by_error = visuals::terrain::ground_metric(options.mesh.lod) == visuals::terrain::GroundMetric::ScreenError;
     const ui::terrain::TerrainCheckResult check_result = ui::terrain::check_terrain(*maker, asked);
     if (options.json) {
         base::JsonValue results;

@@ -7,7 +7,7 @@
 #include "visuals/planning/planner.h"
 #include "visuals/planning/scene.h"
 #include "visuals/scene/camera.h"
-#include "visuals/scene/ground_texture.h"
+#include "visuals/scene/frame_plan.h"
 #include "visuals/scene/picture.h"
 #include "visuals/scene/renderer.h"
 

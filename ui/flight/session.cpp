@@ -122,8 +122,9 @@ report::FrameRecord Session::draw(int frame) {
 settings::FrameRange Session::begin_frame_range(const settings::FlightPart& part) {
     const settings::FrameRange range = settings::frames_of(part, frames());
     times_.truncate_to(static_cast<std::size_t>(range.end));
-    const scene::DetailControl control = settings_.ground.lod.control;
-    const bool ground_has_memory = control != scene::DetailControl::Exact && control != scene::DetailControl::Fixed;
+    const visuals::terrain::DetailControl control = settings_.ground.lod.control;
+    const bool ground_has_memory =
+        control != visuals::terrain::DetailControl::Exact && control != visuals::terrain::DetailControl::Fixed;
     for (int before = 0; before < range.first; ++before) {
         simulate_to(times_.times_s[static_cast<std::size_t>(before)], before, current_);
         if (ground_has_memory || before + 1 == range.first) {

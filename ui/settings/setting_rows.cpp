@@ -84,9 +84,9 @@ void resolve_paths_from(const fs::path& folder, RunSettings& settings) {
 
 // The text of --terrain-lod, whose keys are the rows of its old names (settings_text.h declares these functions).
 
-using visuals::scene::DetailControl;
-using visuals::scene::GroundMetric;
-using visuals::scene::TerrainLod;
+using visuals::terrain::DetailControl;
+using visuals::terrain::GroundMetric;
+using visuals::terrain::TerrainLod;
 
 namespace {
 
@@ -130,9 +130,9 @@ void visit_terrain_lod(TerrainLod& lod, TerrainLod& base, const auto& visit) {
 } // namespace
 
 std::string text_of(const TerrainLod& lod) {
-    if (visuals::scene::ground_metric(lod) == GroundMetric::ScreenError) { return "screen-error"; }
+    if (visuals::terrain::ground_metric(lod) == GroundMetric::ScreenError) { return "screen-error"; }
     TerrainLod shown = lod;
-    shown.metric = visuals::scene::ground_metric(lod);
+    shown.metric = visuals::terrain::ground_metric(lod);
     std::string text = lod.control == DetailControl::Exact ? "exact" : "paper";
     TerrainLod base = terrain_lod_of_kind(text);
     char separator = ':';

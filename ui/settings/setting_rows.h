@@ -94,8 +94,8 @@ using visuals::scene::AirSettings;
 using visuals::scene::GroundSettings;
 using visuals::scene::ShadingSettings;
 using visuals::scene::SurfaceSettings;
-using visuals::scene::TerrainLod;
 using visuals::scene::ViewSettings;
+using visuals::terrain::TerrainLod;
 
 /// Which path, aircraft and ground.
 inline constexpr std::tuple path{

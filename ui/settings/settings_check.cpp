@@ -74,7 +74,7 @@ void check_shading(const scene::ShadingSettings& shading, const scene::Adaptatio
 }
 
 void check_terrain_adaptation(const scene::GroundSettings& ground, const std::string& terrain) {
-    if (ground.lod.control != scene::DetailControl::Exact) {
+    if (ground.lod.control != visuals::terrain::DetailControl::Exact) {
         throw Error("--adapt terrain: expected --terrain-lod screen-error or exact, got another control");
     }
     if (has_no_detail_levels(terrain)) {
@@ -83,10 +83,10 @@ void check_terrain_adaptation(const scene::GroundSettings& ground, const std::st
 }
 
 void check_ground(const scene::GroundSettings& ground, const std::string& terrain) {
-    const bool by_error = scene::ground_metric(ground.lod) == scene::GroundMetric::ScreenError;
-    scene::TerrainLod without_metric = ground.lod;
+    const bool by_error = visuals::terrain::ground_metric(ground.lod) == visuals::terrain::GroundMetric::ScreenError;
+    visuals::terrain::TerrainLod without_metric = ground.lod;
     without_metric.metric.reset();
-    if (by_error && scene::ground_metric(without_metric) != scene::GroundMetric::ScreenError) {
+    if (by_error && visuals::terrain::ground_metric(without_metric) != visuals::terrain::GroundMetric::ScreenError) {
         throw Error(
             "--mesh screen-error: expected --detail exact without --roughness-c, --fans or --propagation, got one "
             "that only --terrain-lod exact or paper has");

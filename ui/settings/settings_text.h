@@ -113,26 +113,27 @@ inline constexpr std::array enum_names<ContextKind>{EnumName{ContextKind::OsMesa
     EnumName{ContextKind::Egl, "egl"}, EnumName{ContextKind::Window, "window"}};
 
 template <>
-inline constexpr std::array enum_names<visuals::scene::GroundMetric>{
-    EnumName{visuals::scene::GroundMetric::Printed, "printed"},
-    EnumName{visuals::scene::GroundMetric::Midpoint, "midpoint"},
-    EnumName{visuals::scene::GroundMetric::ScreenError, "screen-error"}};
+inline constexpr std::array enum_names<visuals::terrain::GroundMetric>{
+    EnumName{visuals::terrain::GroundMetric::Printed, "printed"},
+    EnumName{visuals::terrain::GroundMetric::Midpoint, "midpoint"},
+    EnumName{visuals::terrain::GroundMetric::ScreenError, "screen-error"}};
 
 template <>
-inline constexpr std::array enum_names<visuals::scene::Propagation>{
-    EnumName{visuals::scene::Propagation::CrackFree, "crack-free"},
-    EnumName{visuals::scene::Propagation::Printed, "printed"}};
+inline constexpr std::array enum_names<visuals::terrain::RoughnessPropagation>{
+    EnumName{visuals::terrain::RoughnessPropagation::CrackFree, "crack-free"},
+    EnumName{visuals::terrain::RoughnessPropagation::Printed, "printed"}};
 
 template <>
-inline constexpr std::array enum_names<visuals::scene::GroundFans>{
-    EnumName{visuals::scene::GroundFans::Partial, "partial"}, EnumName{visuals::scene::GroundFans::Full, "full"}};
+inline constexpr std::array enum_names<visuals::terrain::FanKind>{
+    EnumName{visuals::terrain::FanKind::Partial, "partial"}, EnumName{visuals::terrain::FanKind::Full, "full"}};
 
 template <>
-inline constexpr std::array enum_names<visuals::scene::DetailControl>{
-    EnumName{visuals::scene::DetailControl::Exact, "exact"}, EnumName{visuals::scene::DetailControl::Damped, "damped"},
-    EnumName{visuals::scene::DetailControl::Previous, "previous"},
-    EnumName{visuals::scene::DetailControl::Printed, "literal"},
-    EnumName{visuals::scene::DetailControl::Fixed, "fixed"}};
+inline constexpr std::array enum_names<visuals::terrain::DetailControl>{
+    EnumName{visuals::terrain::DetailControl::Exact, "exact"},
+    EnumName{visuals::terrain::DetailControl::Damped, "damped"},
+    EnumName{visuals::terrain::DetailControl::Previous, "previous"},
+    EnumName{visuals::terrain::DetailControl::Literal, "literal"},
+    EnumName{visuals::terrain::DetailControl::Fixed, "fixed"}};
 
 template <>
 inline constexpr std::array enum_names<visuals::scene::MeshDisplay>{EnumName{visuals::scene::MeshDisplay::None, "none"},
@@ -224,7 +225,7 @@ std::string text_of(const glm::dvec3& value);
 std::string text_of(const glm::vec3& colour);
 std::string text_of(const visuals::scene::Adaptation& adapt);
 std::string text_of(const models::heights::VoidValues& voids);
-std::string text_of(const visuals::scene::TerrainLod& lod);
+std::string text_of(const visuals::terrain::TerrainLod& lod);
 
 /// Reads a setting from text. Throws Error "NAME: expected ..., got ..." and then leaves the value as it was.
 void read_setting(const FieldInfo& info, std::string_view text, std::string& value);
@@ -236,7 +237,7 @@ void read_setting(const FieldInfo& info, std::string_view text, glm::dvec3& valu
 void read_setting(const FieldInfo& info, std::string_view text, glm::vec3& colour);
 void read_setting(const FieldInfo& info, std::string_view text, visuals::scene::Adaptation& adapt);
 void read_setting(const FieldInfo& info, std::string_view text, models::heights::VoidValues& voids);
-void read_setting(const FieldInfo& info, std::string_view text, visuals::scene::TerrainLod& lod);
+void read_setting(const FieldInfo& info, std::string_view text, visuals::terrain::TerrainLod& lod);
 
 /// Throws Error "NAME: expected ..., got ..." for a number that `info.allowed_values` does not list.
 void check_listed(const FieldInfo& info, int value);

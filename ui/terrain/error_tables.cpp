@@ -132,13 +132,13 @@ struct BestRoughness {
     double triangles = 0.0;
 };
 
-BestRoughness best_of_roettger(const LoadedGround& ground, const ErrorMeasurement& run, scene::GroundFans fans) {
+BestRoughness best_of_roettger(const LoadedGround& ground, const ErrorMeasurement& run, terrain::FanKind fans) {
     constexpr std::array<double, 5> weights = {10.0, 20.0, 40.0, 80.0, 160.0};
     BestRoughness best;
     for (const double weight : weights) {
         ErrorMeasurement other = run;
         other.mesh = {};
-        other.mesh.lod.metric = scene::GroundMetric::Midpoint;
+        other.mesh.lod.metric = terrain::GroundMetric::Midpoint;
         other.mesh.lod.fans = fans;
         other.mesh.lod.roughness_c = weight;
         const double triangles = mean_triangles_in_view(
@@ -151,11 +151,11 @@ BestRoughness best_of_roettger(const LoadedGround& ground, const ErrorMeasuremen
 } // namespace
 
 report::ResultTable error_table(const LoadedGround& ground, const ErrorMeasurement& run) {
-    const bool by_error = scene::ground_metric(run.mesh.lod) == scene::GroundMetric::ScreenError;
+    const bool by_error = terrain::ground_metric(run.mesh.lod) == terrain::GroundMetric::ScreenError;
     const std::vector<MeasuredMesh> meshes =
-        measured_meshes(ground, run, settings::text_of(scene::ground_metric(run.mesh.lod)));
+        measured_meshes(ground, run, settings::text_of(terrain::ground_metric(run.mesh.lod)));
     report::ResultTable table{
-        fmt::format("Projected error of {} meshes", settings::text_of(scene::ground_metric(run.mesh.lod)))};
+        fmt::format("Projected error of {} meshes", settings::text_of(terrain::ground_metric(run.mesh.lod)))};
     for (std::size_t k = 0; k < meshes.size(); ++k) {
         table.add(row_of(fmt::format("{}", k + 1), std::span(meshes).subspan(k, 1), by_error));
     }
@@ -168,14 +168,14 @@ report::ResultTable error_table(const LoadedGround& ground, const ErrorMeasureme
 
 report::ResultTable comparison_table(const LoadedGround& ground, const ErrorMeasurement& run) {
     const double own =
-        mean_triangles_in_view(measured_meshes(ground, run, settings::text_of(scene::ground_metric(run.mesh.lod))));
-    const BestRoughness full = best_of_roettger(ground, run, scene::GroundFans::Full);
-    const BestRoughness partial = best_of_roettger(ground, run, scene::GroundFans::Partial);
+        mean_triangles_in_view(measured_meshes(ground, run, settings::text_of(terrain::ground_metric(run.mesh.lod))));
+    const BestRoughness full = best_of_roettger(ground, run, terrain::FanKind::Full);
+    const BestRoughness partial = best_of_roettger(ground, run, terrain::FanKind::Partial);
     report::ResultTable table{fmt::format("Triangles in view at {:.4g} px", *run.target_error_px)};
     const auto row = [&](const std::string& name, double triangles, const std::string& c) {
         table.add({{"mesh", name}, {"triangles", "{:.0f}", triangles}, {"c", c}, {"ratio", "{:.3f}", own / triangles}});
     };
-    row(settings::text_of(scene::ground_metric(run.mesh.lod)), own, "");
+    row(settings::text_of(terrain::ground_metric(run.mesh.lod)), own, "");
     row("Roettger, full fans", full.triangles, fmt::format("{}", full.roughness_c));
     row("Roettger, partial fans", partial.triangles, fmt::format("{}", partial.roughness_c));
     table.note = "Mean over the views at equal 99.9th percentile of the error. Ratio: the first "

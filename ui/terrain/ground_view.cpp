@@ -7,7 +7,7 @@
 #include "ui/settings/settings_check.h"
 #include "ui/world/scene_ground.h"
 #include "visuals/groundfile/ground_file.h"
-#include "visuals/terrain/ground_builder.h"
+#include "visuals/terrain/bisection_ground_builder.h"
 #include "visuals/terrain/ground_query.h"
 
 #include <algorithm>

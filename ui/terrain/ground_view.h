@@ -5,9 +5,9 @@
 #include "ui/settings/settings.h"
 #include "visuals/scene/camera.h"
 #include "visuals/scene/settings.h"
+#include "visuals/terrain/bisection_tiles.h"
 #include "visuals/terrain/ground_mesh.h"
 #include "visuals/terrain/ground_query.h"
-#include "visuals/terrain/ground_tiles.h"
 #include "visuals/terrain/mesh_measurement.h"
 
 #include <glm/vec2.hpp>
@@ -32,7 +32,7 @@ struct GroundViewOptions : settings::EyeView {
 
 /// Kind and resolution of a terrain mesh.
 struct GroundMeshOptions {
-    visuals::scene::TerrainLod lod; ///< of its control only resolution_c counts
+    visuals::terrain::TerrainLod lod; ///< of its control only resolution_c counts
     bool geomorphs = false;
     std::optional<double> error_px;
     std::optional<int> triangles;

@@ -14,7 +14,6 @@
 
 namespace octant::ui::terrain {
 
-namespace scene = visuals::scene;
 namespace terrain = visuals::terrain;
 
 namespace {
@@ -27,16 +26,8 @@ std::vector<std::uint32_t> no_colours(int columns, int rows) {
 class QuadtreeMaker final : public MeshMaker {
 public:
     QuadtreeMaker(const models::heights::HeightField& field, const GroundMeshOptions& options)
-        : tree_(field, {.roughness = scene::ground_metric(options.lod) == scene::GroundMetric::Printed
-                                         ? terrain::Roughness::Printed
-                                         : terrain::Roughness::Midpoint}),
-          colours_(no_colours(field.columns(), field.rows())), mesher_(tree_, colours_) {
-        constexpr double midpoint_weight = 20.0;
-        constexpr double printed_weight = 5.0;
-        detail_.roughness_weight = options.lod.roughness_c.value_or(
-            scene::ground_metric(options.lod) == scene::GroundMetric::Printed ? printed_weight : midpoint_weight);
-        detail_.fans = options.lod.fans == scene::GroundFans::Full ? terrain::FanKind::Full : terrain::FanKind::Partial;
-    }
+        : tree_(field, terrain::quadtree_options(options.lod)), colours_(no_colours(field.columns(), field.rows())),
+          mesher_(tree_, colours_), detail_(terrain::quadtree_detail(options.lod)) {}
 
     terrain::GroundSamples ground() const override { return terrain::GroundSamples(tree_.field()); }
 
@@ -79,7 +70,7 @@ public:
     }
 
     terrain::GroundMesh mesh(const terrain::MeshView& view, double coarseness) override {
-        return mesher_.mesh(view, {coarseness, terrain::any_triangles, geomorphs_});
+        return mesher_.mesh(view, {coarseness, terrain::unlimited_triangles, geomorphs_});
     }
 
     terrain::GroundMesh mesh_within(const terrain::MeshView& view, int triangles) override {
@@ -96,7 +87,7 @@ private:
 } // namespace
 
 std::unique_ptr<MeshMaker> make_mesh_maker(const LoadedGround& ground, const GroundMeshOptions& options) {
-    if (scene::ground_metric(options.lod) == scene::GroundMetric::ScreenError) {
+    if (terrain::ground_metric(options.lod) == terrain::GroundMetric::ScreenError) {
         return std::make_unique<ErrorMaker>(ground, options);
     }
     if (ground.field() == nullptr) {
@@ -107,7 +98,7 @@ std::unique_ptr<MeshMaker> make_mesh_maker(const LoadedGround& ground, const Gro
 
 terrain::GroundMesh mesh_from_options(
     MeshMaker& maker, const terrain::MeshView& view, const GroundMeshOptions& options) {
-    const bool by_error = scene::ground_metric(options.lod) == scene::GroundMetric::ScreenError;
+    const bool by_error = terrain::ground_metric(options.lod) == terrain::GroundMetric::ScreenError;
     if (options.triangles) { return maker.mesh_within(view, *options.triangles); }
     if (by_error && options.error_px) { return maker.mesh(view, *options.error_px); }
     if (!by_error && options.lod.resolution_c > 0.0) { return maker.mesh(view, 1.0 / options.lod.resolution_c); }

@@ -428,7 +428,7 @@ void change_plot(std::span<const FrameRecord> records) {
 }
 
 void show_counts(const FrameRecord& last) {
-    const bool limited = last.triangle_target < visuals::scene::unlimited_triangles;
+    const bool limited = last.triangle_target < visuals::terrain::unlimited_triangles;
     ImGui::Text("%d triangles, target %s", last.terrain_triangles,
         limited ? fmt::format("{}", last.triangle_target).c_str() : "none");
     ImGui::Text("change %+d, shadows %d", last.triangle_change, last.shadow_triangles);

@@ -201,7 +201,7 @@ bool edit(const settings::SettingInfo& info, models::heights::VoidValues& voids)
     }
 }
 
-bool edit(const settings::SettingInfo& info, visuals::scene::TerrainLod& lod) {
+bool edit(const settings::SettingInfo& info, visuals::terrain::TerrainLod& lod) {
     const auto typed = typed_text("##value", settings::text_of(lod), info.form);
     try {
         if (typed) { settings::read_setting(info, *typed, lod); }

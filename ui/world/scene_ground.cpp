@@ -19,7 +19,7 @@
 #include "visuals/groundfile/ground_file.h"
 #include "visuals/landscape/ground_palette.h"
 #include "visuals/landscape/ground_texture_maker.h"
-#include "visuals/terrain/ground_builder.h"
+#include "visuals/terrain/bisection_ground_builder.h"
 
 #include <algorithm>
 #include <array>
@@ -229,10 +229,7 @@ SceneGround ground_of_field(
     const std::int64_t filled_voids = field.filled_voids;
     const settings::RunSettings own = with_ground_defaults(settings, field.place);
     SceneGround loaded = with_texture_and_notes(
-        scene::ground_metric(settings.ground.lod) == scene::GroundMetric::ScreenError
-            ? landscape::make_bisection_ground(terrain::make_ground_tiles(field), own.air, runway)
-            : landscape::make_quadtree_ground(std::move(field), own.ground, own.air, runway),
-        filled_voids, own, device);
+        landscape::make_field_ground(std::move(field), own.ground, own.air, runway), filled_voids, own, device);
     loaded.notes.insert(loaded.notes.end(), notes.begin(), notes.end());
     return loaded;
 }

@@ -8,7 +8,7 @@
 #include "ui/world/input_files.h"
 #include "visuals/landscape/ground.h"
 #include "visuals/planning/scene.h"
-#include "visuals/scene/ground_texture.h"
+#include "visuals/scene/frame_plan.h"
 
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>

@@ -371,7 +371,7 @@ std::string reason_for_no_near_detail(const World& world, const visuals::scene::
     if (world.scene.ground->spacing_m() <= 0.0) {
         return fmt::format("{} has no samples between which there could be any", world.ground.name);
     }
-    if (visuals::scene::ground_metric(settings.lod) != visuals::scene::GroundMetric::ScreenError) {
+    if (visuals::terrain::ground_metric(settings.lod) != visuals::terrain::GroundMetric::ScreenError) {
         return "only ground that is refined by screen-error shows any";
     }
     return {};

@@ -4,7 +4,6 @@
 #include "visuals/gl/shared_picture.h"
 #include "visuals/gl/window_context.h"
 #include "visuals/scene/picture.h"
-#include "visuals/scene/window_picture.h"
 
 #include <glm/vec2.hpp>
 

@@ -205,8 +205,8 @@ void Renderer::paint(const FramePlan& plan, const DrawTarget& place) {
 /// In a box of the plan's picture; picture and target have their rows in one order where depth is used.
 void Renderer::clear_depth(const scene::PixelBox& box, const DrawTarget& place) {
     const PixelRect& rect = place.rect;
-    const glm::ivec2 min_px = glm::max(box.least, glm::ivec2(0));
-    const glm::ivec2 size = glm::min(box.most, glm::ivec2(rect.width, rect.height)) - min_px;
+    const glm::ivec2 min_px = glm::max(box.min, glm::ivec2(0));
+    const glm::ivec2 size = glm::min(box.max, glm::ivec2(rect.width, rect.height)) - min_px;
     if (size.x <= 0 || size.y <= 0) { return; }
     // A mask left by an earlier step would keep the clearing out, too.
     gl_.depth_mask(GL_TRUE);

@@ -5,7 +5,7 @@
 #include "visuals/gl/object.h"
 #include "visuals/gl/shader_sources.h"
 #include "visuals/scene/detail_pattern.h"
-#include "visuals/scene/ground_texture.h"
+#include "visuals/scene/frame_plan.h"
 #include "visuals/scene/land_cover_contrast.h"
 
 #include <glm/gtc/type_ptr.hpp>

@@ -3,7 +3,6 @@
 #include "visuals/gl/draw_state.h"
 #include "visuals/gl/object.h"
 #include "visuals/scene/frame_plan.h"
-#include "visuals/scene/ground_texture.h"
 
 #include <glm/vec2.hpp>
 

@@ -8,7 +8,7 @@
 #include "sim/base/text_file.h"
 #include "sim/base/thread_pool.h"
 #include "visuals/groundfile/mapped_file.h"
-#include "visuals/terrain/ground_tiles.h"
+#include "visuals/terrain/bisection_tiles.h"
 
 #include <algorithm>
 #include <array>

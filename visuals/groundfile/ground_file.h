@@ -1,6 +1,6 @@
 #pragma once
 
-#include "visuals/terrain/ground_tiles.h"
+#include "visuals/terrain/bisection_tiles.h"
 
 #include <array>
 #include <cstddef>

@@ -11,8 +11,8 @@
 #include "sim/base/hash.h"
 #include "visuals/groundfile/ground_file.h"
 #include "visuals/groundfile/mapped_file.h"
-#include "visuals/terrain/ground_builder.h"
-#include "visuals/terrain/ground_tiles.h"
+#include "visuals/terrain/bisection_ground_builder.h"
+#include "visuals/terrain/bisection_tiles.h"
 
 #include <algorithm>
 #include <bit>

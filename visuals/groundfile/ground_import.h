@@ -2,7 +2,7 @@
 
 #include "models/heights/height_field.h"
 #include "models/heights/import_options.h"
-#include "visuals/terrain/ground_tiles.h"
+#include "visuals/terrain/bisection_tiles.h"
 
 #include <cstddef>
 #include <filesystem>

@@ -10,9 +10,9 @@
 #include "visuals/roads/road_network.h"
 #include "visuals/scene/land_cover_contrast.h"
 #include "visuals/terrain/bisection_mesher.h"
+#include "visuals/terrain/bisection_prefetcher.h"
+#include "visuals/terrain/bisection_tiles.h"
 #include "visuals/terrain/ground_mesh.h"
-#include "visuals/terrain/ground_prefetcher.h"
-#include "visuals/terrain/ground_tiles.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -419,7 +419,7 @@ public:
     }
 
     bool has_mesh_settings(const scene::GroundSettings& settings) const override {
-        return ground_metric(settings.lod) == scene::GroundMetric::ScreenError;
+        return terrain::ground_metric(settings.lod) == terrain::GroundMetric::ScreenError;
     }
 
     std::shared_ptr<const Ground> with_settings(
@@ -546,7 +546,7 @@ private:
         std::ranges::transform(frustum_normals(request.camera, request.aspect), near_view_.frustum_normals.begin(),
             [](const glm::dvec3& normal) { return glm::vec3(normal); });
         const int triangles = request.triangle_target;
-        const bool unlimited = triangles >= scene::unlimited_triangles;
+        const bool unlimited = triangles >= terrain::unlimited_triangles;
         if (adds_detail()) {
             const double height_above_ground_m = eye_m.z - ground_->height_at(eye_m.x, eye_m.y).value_or(0.0);
             nature::apply_detail_budget(
@@ -556,7 +556,7 @@ private:
                 detail_, near_view_);
         }
         const int kept = adds_detail() ? static_cast<int>(near_view_.max_splits + near_view_.max_scenery_triangles) : 0;
-        target_.max_triangles = unlimited ? terrain::any_triangles : std::max(triangles - kept, 1);
+        target_.max_triangles = unlimited ? triangles : std::max(triangles - kept, 1);
     }
 
     /// Does nothing if the mesher returns the mesh of the last call, which was made ahead.

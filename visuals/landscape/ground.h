@@ -11,8 +11,8 @@
 #include "visuals/roads/road_network.h"
 #include "visuals/scene/land_cover_contrast.h"
 #include "visuals/scene/settings.h"
+#include "visuals/terrain/bisection_tiles.h"
 #include "visuals/terrain/ground_query.h"
-#include "visuals/terrain/ground_tiles.h"
 
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
@@ -130,11 +130,10 @@ double highest_m(const Ground& ground);
 std::unique_ptr<GroundMesher> reuse_or_make_mesher(
     std::unique_ptr<GroundMesher> before, const Ground& ground, const MeshSettings& settings);
 
-/// A height field under a quadtree whose triangle count is held. Takes the field over. `runway`: for which it has been
-/// levelled.
-std::shared_ptr<const Ground> make_quadtree_ground(models::heights::HeightField field,
-    const scene::GroundSettings& ground, const scene::AirSettings& air,
-    std::shared_ptr<const models::heights::RunwayStrip> runway = nullptr);
+/// A height field under the mesh that `ground.lod` chooses: the paper's quadtree or a mesh by screen-space error.
+/// `runway`: for which the field has been levelled.
+std::shared_ptr<const Ground> make_field_ground(models::heights::HeightField field, const scene::GroundSettings& ground,
+    const scene::AirSettings& air, std::shared_ptr<const models::heights::RunwayStrip> runway = nullptr);
 
 /// Ground under a mesh by screen-space error. `runway`: for which it has been levelled.
 std::shared_ptr<const Ground> make_bisection_ground(terrain::GroundTiles ground, const scene::AirSettings& air,

@@ -3,7 +3,6 @@
 #include "models/heights/image.h"
 #include "visuals/nature/climate.h"
 #include "visuals/scene/frame_plan.h"
-#include "visuals/scene/ground_texture.h"
 #include "visuals/scene/settings.h"
 #include "visuals/terrain/ground_query.h"
 

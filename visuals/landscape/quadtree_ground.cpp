@@ -2,9 +2,9 @@
 #include "visuals/landscape/ground.h"
 #include "visuals/landscape/ground_mesher.h"
 #include "visuals/landscape/ground_palette.h"
-#include "visuals/terrain/detail_controller.h"
-#include "visuals/terrain/ground_builder.h"
+#include "visuals/terrain/bisection_ground_builder.h"
 #include "visuals/terrain/quadtree.h"
+#include "visuals/terrain/quadtree_control.h"
 #include "visuals/terrain/quadtree_mesher.h"
 
 #include <algorithm>
@@ -20,53 +20,24 @@ namespace octant::visuals::landscape {
 
 namespace {
 
-/// c at which 20,000 triangles show the least error on real maps: 99.9th percentile 2.4-2.8 px at 720 lines by the
-/// mid-point measure, 3.0 px by the printed one, 4.3-5.1 px for c = 0.
-constexpr double midpoint_weight = 20.0;
-constexpr double printed_weight = 5.0;
 constexpr double reference_fov_rad = rad_from_deg(45.0); ///< of the lens for which C is meant
-
-terrain::QuadtreeOptions quadtree_options(const scene::TerrainLod& lod) {
-    return {.roughness = ground_metric(lod) == scene::GroundMetric::Printed ? terrain::Roughness::Printed
-                                                                            : terrain::Roughness::Midpoint,
-        .propagation = lod.propagation == scene::Propagation::Printed ? terrain::RoughnessPropagation::Printed
-                                                                      : terrain::RoughnessPropagation::CrackFree};
-}
-
-/// Without the target, which comes with each request.
-terrain::ControlSettings control_settings(const scene::TerrainLod& lod) {
-    terrain::ControlSettings control;
-    control.triangles_per_resolution = lod.control_a;
-    control.averaged_frames = lod.control_r;
-    switch (lod.control) {
-    case scene::DetailControl::Previous:
-        control.method = terrain::ControlMethod::Previous;
-        break;
-    case scene::DetailControl::Printed:
-        control.method = terrain::ControlMethod::Printed;
-        break;
-    case scene::DetailControl::Damped: // as printed where its a is given
-        control.method = lod.control_a > 0.0 ? terrain::ControlMethod::Damped : terrain::ControlMethod::Tuned;
-        break;
-    case scene::DetailControl::Exact:
-    case scene::DetailControl::Fixed:
-        control.method = terrain::ControlMethod::Damped;
-        break;
-    }
-    return control;
-}
 
 bool is_same(const terrain::MeshView& a, const terrain::MeshView& b) {
     return a.eye_m == b.eye_m && a.frustum_normals == b.frustum_normals && a.magnification == b.magnification;
 }
 
+using FieldPointer = std::shared_ptr<const models::heights::HeightField>;
+using RunwayPointer = std::shared_ptr<const models::heights::RunwayStrip>;
+
+std::shared_ptr<const Ground> ground_over(
+    FieldPointer field, const scene::GroundSettings& ground, const scene::AirSettings& air, RunwayPointer runway);
+
 /// Heights, their quadtree and their colours.
 class QuadtreeGround final : public Ground {
 public:
     /// The tree is one of the field.
-    QuadtreeGround(std::shared_ptr<const models::heights::HeightField> field,
-        std::shared_ptr<const terrain::Quadtree> tree, const scene::AirSettings& air,
-        std::shared_ptr<const models::heights::RunwayStrip> runway)
+    QuadtreeGround(FieldPointer field, std::shared_ptr<const terrain::Quadtree> tree, const scene::AirSettings& air,
+        RunwayPointer runway)
         : Ground(air, std::move(runway)), field_(std::move(field)), tree_(std::move(tree)),
           colours_(ground_colours(*field_, air)), mean_colour_(landscape::mean_colour(colours_)) {
         for (int row = 0; row < field_->rows(); ++row) {
@@ -102,27 +73,21 @@ public:
     }
 
     bool has_mesh_settings(const scene::GroundSettings& settings) const override {
-        const terrain::QuadtreeOptions wanted = quadtree_options(settings.lod);
-        return ground_metric(settings.lod) != scene::GroundMetric::ScreenError &&
+        const terrain::QuadtreeOptions wanted = terrain::quadtree_options(settings.lod);
+        return terrain::ground_metric(settings.lod) != terrain::GroundMetric::ScreenError &&
                wanted.roughness == tree_->options().roughness && wanted.propagation == tree_->options().propagation;
     }
 
     std::shared_ptr<const Ground> with_settings(
         const scene::GroundSettings& ground, const scene::AirSettings& air) const override {
-        if (ground_metric(ground.lod) == scene::GroundMetric::ScreenError) {
-            return make_bisection_ground(terrain::make_ground_tiles(*field_), air, runway());
-        }
-        return std::make_shared<QuadtreeGround>(field_,
-            has_mesh_settings(ground)
-                ? tree_
-                : std::make_shared<const terrain::Quadtree>(*field_, quadtree_options(ground.lod)),
-            air, runway());
+        return has_mesh_settings(ground) ? std::make_shared<QuadtreeGround>(field_, tree_, air, runway())
+                                         : ground_over(field_, ground, air, runway());
     }
 
 private:
     std::unique_ptr<GroundMesher> make_mesher() const override;
 
-    std::shared_ptr<const models::heights::HeightField> field_;
+    FieldPointer field_;
     std::shared_ptr<const terrain::Quadtree> tree_; ///< of that field
     std::vector<std::uint32_t> colours_;            ///< one a sample
     glm::vec3 mean_colour_;
@@ -140,14 +105,12 @@ public:
     void apply_settings(const MeshSettings& settings) override {
         GroundMesher::apply_settings(settings);
         const scene::GroundSettings& ground = settings.ground;
-        control_ = control_settings(ground.lod);
-        exact_ = ground.lod.control == scene::DetailControl::Exact;
-        fixed_resolution_ = ground.lod.control == scene::DetailControl::Fixed;
+        control_ = terrain::control_settings(ground.lod);
+        exact_ = ground.lod.control == terrain::DetailControl::Exact;
+        fixed_resolution_ = ground.lod.control == terrain::DetailControl::Fixed;
         first_resolution_ = ground.lod.resolution_c;
         order_ = settings.is_front_to_back ? terrain::PaintOrder::FrontToBack : terrain::PaintOrder::BackToFront;
-        detail_.roughness_weight = ground.lod.roughness_c.value_or(
-            ground_metric(ground.lod) == scene::GroundMetric::Printed ? printed_weight : midpoint_weight);
-        detail_.fans = ground.lod.fans == scene::GroundFans::Full ? terrain::FanKind::Full : terrain::FanKind::Partial;
+        detail_ = terrain::quadtree_detail(ground.lod);
         if (fixed_resolution_ && first_resolution_ > 0.0) {
             state_ = terrain::initial_state(first_resolution_, control_);
         }
@@ -223,14 +186,21 @@ std::unique_ptr<GroundMesher> QuadtreeGround::make_mesher() const {
     return std::make_unique<QuadtreeGroundMesher>(std::static_pointer_cast<const QuadtreeGround>(shared_from_this()));
 }
 
+std::shared_ptr<const Ground> ground_over(
+    FieldPointer field, const scene::GroundSettings& ground, const scene::AirSettings& air, RunwayPointer runway) {
+    if (terrain::ground_metric(ground.lod) == terrain::GroundMetric::ScreenError) {
+        return make_bisection_ground(terrain::make_ground_tiles(*field), air, std::move(runway));
+    }
+    auto tree = std::make_shared<const terrain::Quadtree>(*field, terrain::quadtree_options(ground.lod));
+    return std::make_shared<QuadtreeGround>(std::move(field), std::move(tree), air, std::move(runway));
+}
+
 } // namespace
 
-std::shared_ptr<const Ground> make_quadtree_ground(models::heights::HeightField field,
-    const scene::GroundSettings& ground, const scene::AirSettings& air,
-    std::shared_ptr<const models::heights::RunwayStrip> runway) {
-    auto shared = std::make_shared<const models::heights::HeightField>(std::move(field));
-    auto tree = std::make_shared<const terrain::Quadtree>(*shared, quadtree_options(ground.lod));
-    return std::make_shared<QuadtreeGround>(std::move(shared), std::move(tree), air, std::move(runway));
+std::shared_ptr<const Ground> make_field_ground(models::heights::HeightField field, const scene::GroundSettings& ground,
+    const scene::AirSettings& air, std::shared_ptr<const models::heights::RunwayStrip> runway) {
+    return ground_over(
+        std::make_shared<const models::heights::HeightField>(std::move(field)), ground, air, std::move(runway));
 }
 
 } // namespace octant::visuals::landscape

@@ -267,7 +267,7 @@ private:
     scene::ModelBuffers buffers_;
 };
 
-/// A model in which what touches a side of a polygon is a corner of it, so that both are rounded alike on the screen:
+/// A model in which every vertex on a side of a polygon is also a corner of it, so that renderers round both alike:
 /// where a side has no corner of its own in such a place, single pixels between the two may belong to neither. Normals
 /// there are those of the side.
 models::polygons::PolygonModel closed(models::polygons::PolygonModel model, std::vector<glm::vec3>& normals) {
@@ -414,13 +414,23 @@ double reach_below_m(const AircraftModel& model) {
 }
 
 glm::dvec3 pilot_eye_m(const models::polygons::PolygonModel& model) {
-    glm::dvec3 least(std::numeric_limits<double>::max());
-    glm::dvec3 most(std::numeric_limits<double>::lowest());
+    glm::dvec3 min_m(std::numeric_limits<double>::max());
+    glm::dvec3 max_m(std::numeric_limits<double>::lowest());
     for (const glm::dvec3& vertex : model.vertices_m) {
-        least = glm::min(least, vertex);
-        most = glm::max(most, vertex);
+        min_m = glm::min(min_m, vertex);
+        max_m = glm::max(max_m, vertex);
     }
-    return {most.x - 0.25 * (most.x - least.x), 0.5 * (least.y + most.y), least.z};
+    return {max_m.x - 0.25 * (max_m.x - min_m.x), 0.5 * (min_m.y + max_m.y), min_m.z};
+}
+
+std::uint32_t level_colour(double error_m, double radius_m) {
+    // Neighbours differ clearly. The colours repeat: the tenth halving looks as the first.
+    constexpr std::array<std::uint32_t, 9> colours{0xff4040e0U, 0xff30a0f8U, 0xff40e0f0U, 0xff50c850U, 0xffc8c030U,
+        0xfff09040U, 0xffe050a0U, 0xffa0a0a0U, 0xff6070a8U};
+    if (!(error_m > 0.0) || !(radius_m > 0.0)) { return 0xffffffffU; }
+    const double halvings = std::floor(-std::log2(error_m / radius_m));
+    const double turns = std::floor(halvings / colours.size());
+    return colours[static_cast<std::size_t>(halvings - turns * colours.size())];
 }
 
 } // namespace octant::visuals::planning

@@ -19,11 +19,11 @@
 
 namespace octant::visuals::planning {
 
-/// A level of detail before it is made ready to be drawn.
+/// The mesh of a level of detail.
 struct MeshSource {
     /// Triangles to be drawn, in body axes.
     const models::TriangleMesh* mesh = nullptr;
-    /// No point of it is farther than this from the original surface, nor the other way round.
+    /// The largest distance from a point of it to the original surface, and from a point of that to it.
     double error_m = 0.0;
 };
 
@@ -35,18 +35,18 @@ struct MeshLevel {
     shading::ShadedPolygons shaded;
 };
 
-/// Appends a mesh to a model's buffers: corners that look the same share a vertex, but each triangle has a first corner
-/// of its own. Normals are the mesh's own where it has any, else by crease angle. Loading work.
+/// Appends a mesh to a model's buffers: equal corners share a vertex, but the first corner of each triangle has its
+/// own. Normals are the mesh's own where it has any, else by crease angle. Loading work.
 MeshLevel append_level(scene::ModelBuffers& buffers, const MeshSource& source);
 
-/// Which of several representations, finest first, is drawn: the coarsest whose error is at most `max_m`, the finest
-/// where none is. Hysteresis: `before`, the one drawn last (negative: none), is kept while it is good enough and no
-/// coarser one is good enough by a margin. Errors rise, or stay.
+/// The index of the representation to draw: the coarsest whose error is at most `max_m`, or else the finest.
+/// `errors_m`: finest first, ascending. Hysteresis: `before`, the last one drawn (negative: none), stays while its
+/// error is small enough and no coarser one's is by a margin.
 int select_level(std::span<const double> errors_m, double max_m, int before);
 
-/// The dials that a cockpit's model (body axes, from the pilot's eye) has room for: one where its first part named
-/// dial_speed, dial_altitude, dial_attitude, dial_heading or dial_load begins, as large as fits into that polygon,
-/// which lies ahead and square to the x axis. Scales hold what `limits` allow. Loading work.
+/// The dials of a cockpit's model (body axes, from the pilot's eye): one in the first polygon of each part named
+/// dial_speed, dial_altitude, dial_attitude, dial_heading or dial_load, as large as fits. These polygons lie ahead and
+/// square to the x axis. The scales cover `limits`. Loading work.
 overlay::InstrumentLayout dials_of(const models::polygons::PolygonModel& cockpit, const sim::AircraftLimits& limits);
 
 /// A model as drawn. As polygons: the vertices of polygon after polygon, one a corner and one where another polygon's
@@ -54,38 +54,37 @@ overlay::InstrumentLayout dials_of(const models::polygons::PolygonModel& cockpit
 /// polygons in file order. As meshes, where it has levels of detail: behind both. Representation 0 .. n - 1 are the
 /// mesh levels, finest first, or 0 the progressive mesh; the last one is the ordered polygons.
 struct AircraftModel {
-    /// The polygons that the order speaks of.
+    /// The polygons of `order`.
     models::polygons::PolygonModel polygons;
     draworder::DrawOrder order;
     scene::ModelBuffers buffers;
-    /// Where the vertices of each polygon begin, and those of the last one end.
+    /// The index of the first vertex of each polygon, and the end of the last one's.
     std::vector<std::uint32_t> first_vertices;
-    /// Where each polygon of order.polygons() begins in the index buffer, and the last one ends.
+    /// The place in the index buffer at which each polygon of order.polygons() begins, and the end of the last one.
     std::vector<std::uint32_t> first_indices;
     scene::IndexRange file_order;
     /// The polygons that file_order draws, without repeats.
     std::vector<std::uint32_t> file_list;
-    /// Holds polygons and meshes.
+    /// The bounds of polygons and meshes.
     AxisAlignedBox hull;
     scene::Subject subject;
     /// How the polygons are shaded.
     shading::ShadedPolygons shaded;
     /// Levels of detail, finest first; often none.
     std::vector<MeshLevel> levels;
-    /// In place of levels: a mesh that is refined in each frame. Body axes.
+    /// Instead of levels: a mesh that is refined in each frame. Body axes.
     std::shared_ptr<const refine::ProgressiveMesh> progressive;
     /// One for each representation.
     std::vector<double> errors_m;
-    /// With a progressive mesh: triangles of what turns beside it, by the pivots of the polygons. Their polygons have
-    /// the number 0 each: all smooth, or all flat.
+    /// With a progressive mesh: the triangles of turning parts, which turn by the pivots of the polygons. All have
+    /// polygon number 0: all are smooth, or all are flat.
     scene::IndexRange turning{};
-    /// With a progressive mesh: its transparent surfaces, which are blended over all others. Their polygons have the
-    /// number 0 each.
+    /// With a progressive mesh: its transparent surfaces, which are blended over all others. All have polygon number 0.
     scene::IndexRange transparent{};
-    /// How much of what is behind the transparent surfaces hide.
+    /// The coverage of the transparent surfaces, 0 to 1.
     float opacity = 1.0F;
 
-    /// How many indices draw a polygon.
+    /// The number of indices of a polygon.
     std::uint32_t index_count_of(std::uint32_t polygon) const {
         return 3 * (first_vertices[polygon + 1] - first_vertices[polygon] - 2);
     }
@@ -93,7 +92,7 @@ struct AircraftModel {
     /// The number of the representation by polygons.
     std::size_t polygon_representation() const { return errors_m.size() - 1; }
 
-    /// What is shaded where the aircraft is shown by this level of detail, or by its polygons.
+    /// The shaded polygons of a level of detail, or of the ordered polygons.
     const shading::ShadedPolygons& shaded_as(std::size_t representation) const {
         return representation < levels.size() ? levels[representation].shaded : shaded;
     }
@@ -102,40 +101,47 @@ struct AircraftModel {
 /// The part of a model's index buffer that holds a range of its order.
 scene::IndexRange index_range(const AircraftModel& model, const draworder::DrawOrder::Range& range);
 
-/// Makes a model ready to be drawn. `pilot_eye_m`: body axes. `normals`: one a corner, for smooth shading; empty = made
-/// here by crease angle, for polygons that are whole. Loading work.
+/// Makes the buffers of a model. `pilot_eye_m`: body axes. `normals`: for smooth shading, one for each corner; empty =
+/// by crease angle, which needs polygons that are not split. Loading work.
 AircraftModel aircraft_model(models::polygons::PolygonModel polygons, draworder::DrawOrder order,
     const glm::dvec3& pilot_eye_m, std::vector<glm::vec3> normals = {});
 
-/// Gives a model levels of detail, finest first, of which its polygons are the last one, wrong by `polygons_error_m`.
-/// Errors must not fall (asserted). Loading work.
+/// Adds levels of detail, finest first. `polygons_error_m`: the error of the ordered polygons, the coarsest
+/// representation. Errors must ascend (asserted). Loading work.
 void add_levels(AircraftModel& model, std::span<const MeshSource> sources, double polygons_error_m);
 
-/// Gives a model a mesh that is refined in each frame; far away, where `polygons_error_m` is little, it is drawn as its
-/// polygons. Loading work.
+/// Adds a mesh that is refined in each frame. Far away, where `polygons_error_m` is small enough, the ordered polygons
+/// are drawn. Loading work.
 void add_progressive(
     AircraftModel& model, std::shared_ptr<const refine::ProgressiveMesh> mesh, double polygons_error_m);
 
 /// A part of a mesh aircraft that turns by a pivot of its polygons.
 struct TurningPartMesh {
-    /// The part as at the time 0, in body axes.
+    /// The part at time 0, in body axes.
     const models::TriangleMesh* mesh = nullptr;
     /// Index into PolygonModel::pivots.
     std::uint32_t pivot = 0;
 };
 
-/// Gives a model with a progressive mesh the parts that turn beside it. Loading work.
+/// Adds turning parts to a model with a progressive mesh. Loading work.
 void add_turning_parts(AircraftModel& model, std::span<const TurningPartMesh> parts);
 
-/// Gives a model with a progressive mesh its transparent surfaces; body axes. Loading work.
+/// Adds transparent surfaces, in body axes, to a model with a progressive mesh. Loading work.
 void add_transparent(AircraftModel& model, const models::TriangleMesh& mesh, float opacity);
 
-/// How far a model reaches below its reference point when it stands upright, metres; parts that turn as at the time 0.
-/// Goes with the corners: to be asked once, at loading.
+/// The depth of the lowest corner of an upright model below its reference point, metres, with turning parts as at time
+/// 0. Loading work.
 double reach_below_m(const AircraftModel& model);
 
-/// Where a pilot's eye may be in an aircraft of which only the shape is known, body axes: a quarter of the length
-/// behind the nose at the height of the top.
+/// An assumed pilot's eye for a model that names none, body axes: a quarter of the length behind the nose at the height
+/// of the top.
 glm::dvec3 pilot_eye_m(const models::polygons::PolygonModel& model);
+
+/// The colours of smooth and of flat polygons under ModelDisplay::Shading.
+inline constexpr scene::PolygonTints shading_tints{.smooth = 0xffe6a050U, .flat = 0xff3090ffU};
+
+/// The colour, as ColourVertex::colour, of a surface with that error under ModelDisplay::Levels. `radius_m`: of the
+/// whole model.
+std::uint32_t level_colour(double error_m, double radius_m);
 
 } // namespace octant::visuals::planning

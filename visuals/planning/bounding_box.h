@@ -13,24 +13,23 @@
 
 namespace octant::visuals::planning {
 
-// What an eye sees of convex polygons. World axes with the eye at the origin, metres.
+// Convex polygons as an eye sees them. World axes with the eye at the origin, metres.
 
-/// A corner of a convex polygon and how the edge from it to the next corner came about.
+/// A corner of a convex polygon, and the kind of the edge from it to the next corner.
 struct ViewVertex {
     glm::dvec3 at_m{0.0};
-    /// Whether the edge is a cut, and not one of the polygon's own.
+    /// Whether clipping made the edge; else it is an edge of the original polygon.
     bool cut = false;
 };
 
-/// Without corners nothing of it is left.
+/// A polygon without corners is empty.
 using ViewPolygon = std::vector<ViewVertex>;
 
-/// Cuts a convex polygon down to the front of a plane. Corners within `tolerance_m` of the plane lie on it: they are
-/// not cut off, but a polygon of which no corner lies farther in front is emptied. `scratch` keeps its memory between
-/// calls.
+/// Clips a convex polygon to the front of a plane. Corners within `tolerance_m` of the plane count as on it: they stay,
+/// but a polygon with no corner farther in front becomes empty. `scratch`: memory for the result, reused by calls.
 void clip_to_front(ViewPolygon& polygon, const Plane& plane, double tolerance_m, ViewPolygon& scratch);
 
-/// Cuts a convex polygon down to the common front of planes through the eye, given by normals.
+/// Clips a convex polygon to the front of all planes through the eye with these normals.
 void clip_to_cone(ViewPolygon& polygon, std::span<const glm::dvec3> normals, ViewPolygon& scratch);
 
 /// The planes through the eye and the edges of a convex polygon that does not lie edge-on, unit normals pointing
@@ -40,29 +39,30 @@ void cone_of(const ViewPolygon& polygon, double widening_rad, std::vector<glm::d
 /// Plane of a polygon, its front where the corners run counter-clockwise; unit normal.
 Plane plane_of(const ViewPolygon& polygon);
 
-/// Mean of the corners.
+/// The mean of the corners.
 glm::dvec3 middle_of(const ViewPolygon& polygon);
 
-/// Solid angle that a small polygon covers for the eye, steradians; a large one comes out too small, never zero.
+/// The solid angle of a small polygon as seen by the eye, steradians. For a large one the result is too small, but
+/// above zero.
 double solid_angle_sr(const ViewPolygon& polygon);
 
-/// What is seen smaller than this cannot meet a pixel's centre but by chance: a pixel of a picture of 4,000 lines
-/// covers 1e-8.
+/// Polygons with a smaller solid angle are left out, because they hardly ever cover a pixel's centre: a pixel of a
+/// picture of 4,000 lines covers 1e-8.
 inline constexpr double min_solid_angle_sr = 1e-13;
 
-/// Corners of the smallest body-axes box that holds a model however its pivots have turned.
+/// A box along the axes, given by two opposite corners.
 struct AxisAlignedBox {
     glm::dvec3 min_m{0.0};
     glm::dvec3 max_m{0.0};
 };
 
-/// The extent of a model, at all angles of its pivots. Slow: to be asked once, at loading.
+/// The smallest body-axes box around a model at all angles of its pivots. Loading work.
 AxisAlignedBox model_bounds(const models::polygons::PolygonModel& model);
 
-/// The smallest box around the circle that a point runs about the axis of a pivot.
+/// The smallest box around the circle on which a point turns about the axis of a pivot.
 AxisAlignedBox rotation_bounds(const models::polygons::Pivot& pivot, const glm::dvec3& point_m);
 
-/// A box that stands in for one aircraft, or for several: world axes with the eye at the origin.
+/// The bounding box of one aircraft or of several: world axes with the eye at the origin.
 struct OrientedBox {
     glm::dvec3 centre_m{0.0};
     /// Columns are unit vectors along the edges.
@@ -70,32 +70,32 @@ struct OrientedBox {
     glm::dvec3 half_m{0.0};
 };
 
-/// The hull of an aircraft at `position_m` (eye at the origin), wider by `margin_m` on all sides.
+/// A body-axes box at `position_m` (eye at the origin) as an oriented box, enlarged by `margin_m` on all sides.
 OrientedBox placed_box(
     const AxisAlignedBox& extent, const glm::dvec3& position_m, const glm::dquat& body_to_world, double margin_m);
 
 std::array<glm::dvec3, 8> corners_of(const OrientedBox& box);
 
-/// Corners of the smallest box along the world's axes that holds the box.
+/// The smallest box along the world's axes around a box.
 AxisAlignedBox world_bounds(const OrientedBox& box);
 
-/// The box along the world's axes between two corners.
+/// The same box as an oriented box.
 OrientedBox oriented_box(const AxisAlignedBox& extent);
 
-/// Radius of the sphere around the centre through the corners, metres.
+/// The radius of the sphere about the centre through the corners, metres.
 double radius_m(const OrientedBox& box);
 
-/// Plane of side 0 .. 5 of a box, its front outside.
+/// The plane of side 0 to 5 of a box; its front is outside.
 Plane side_of(const OrientedBox& box, int side);
 
-/// Cuts a convex polygon down to the inside of a box.
+/// Clips a convex polygon to the inside of a box.
 void clip_to_box(ViewPolygon& polygon, const OrientedBox& box, ViewPolygon& scratch);
 
 /// True for an eye inside the box or on it.
 bool contains_eye(const OrientedBox& box);
 
-/// The planes through the eye and the outline of a box as the eye sees it, unit normals pointing inside. The box, and
-/// what it holds, lies in front of all of them.
+/// The planes through the eye and the outline of a box as the eye sees it, unit normals pointing inside: the box is in
+/// front of all of them.
 struct ViewCone {
     std::array<glm::dvec3, 6> normals{};
     int count = 0;
@@ -103,22 +103,23 @@ struct ViewCone {
     std::span<const glm::dvec3> planes() const { return std::span(normals).first(static_cast<std::size_t>(count)); }
 };
 
-/// Seen from an eye outside the box.
+/// The eye must be outside the box.
 ViewCone cone_of(const OrientedBox& box);
 
-/// The same for light that comes from the unit vector `from`: planes along the light, unit normals pointing inside,
-/// with the box in front of all of them.
+/// The planes along parallel light through the outline of a box, unit normals pointing inside: the box is in front of
+/// all of them.
 struct LightPrism {
     std::array<Plane, 6> planes{};
     int count = 0;
 };
 
+/// `from`: a unit vector towards the light.
 LightPrism prism_of(const OrientedBox& box, const glm::dvec3& from);
 
-/// Multiple of `ray` (from the eye, into the box's cone) at which it enters the box.
+/// The multiple of `ray`, a vector from the eye inside the box's cone, at which it enters the box.
 double entry_distance(const OrientedBox& box, const glm::dvec3& ray);
 
-/// Which of two boxes can hide part of the other from the eye; for boxes that do not meet at most one can.
+/// Which of two boxes can hide part of the other from the eye. At most one can if they do not intersect.
 struct OcclusionPair {
     bool intersect = false;
     bool a_occludes_b = false;

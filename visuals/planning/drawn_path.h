@@ -11,7 +11,7 @@
 
 namespace octant::visuals::planning {
 
-/// The path of an aircraft as it is drawn: points at even times, and where its legs begin. World axes.
+/// The path of an aircraft as it is drawn: points at equal intervals of time, and its legs. World axes.
 struct DrawnPath {
     struct Point {
         glm::dvec3 position_m{0.0};
@@ -24,24 +24,23 @@ struct DrawnPath {
         std::string name;
     };
 
-    /// The time of the first point, and from one point to the next.
+    /// The time of the first point, and the time from one point to the next.
     double first_s = 0.0;
     double step_s = 0.1;
     std::vector<Point> points;
-    /// By the times at which they begin.
+    /// By ascending first_point.
     std::vector<Leg> legs;
 
-    /// Time of a point.
     double time_s(std::size_t point) const { return first_s + step_s * static_cast<double>(point); }
 };
 
-/// When a leg begins, and what it is called.
+/// The first time of a leg, and its name.
 struct NamedTime {
     double time_s = 0.0;
     std::string name;
 };
 
-/// The path of a trajectory. Long ones have fewer points a second.
+/// The path of a trajectory. A long one gets fewer points a second.
 DrawnPath drawn_path(const sim::Trajectory& trajectory, std::span<const NamedTime> legs);
 
 } // namespace octant::visuals::planning

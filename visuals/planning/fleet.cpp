@@ -10,13 +10,13 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <utility>
 
 namespace octant::visuals::planning {
 
 namespace {
 
-/// What the boxes around aircraft are made wider by, so that rounding leaves nothing outside: wider ones only cost
-/// time.
+/// The margin of bounding boxes, so that rounding leaves nothing outside. A larger one costs time only.
 constexpr double hull_margin_px = 0.25;
 constexpr double hull_margin_m = 0.01;
 
@@ -49,10 +49,10 @@ scene::PolygonTints model_tints(const PlacedAircraft& aircraft, scene::ModelDisp
     if (look == scene::ModelDisplay::None || (look == scene::ModelDisplay::Levels && is_refined(aircraft))) {
         return {};
     }
-    if (look == scene::ModelDisplay::Shading) { return scene::shading_tints; }
+    if (look == scene::ModelDisplay::Shading) { return shading_tints; }
     const double radius_m = model.progressive ? model.progressive->half_diagonal_m() : model.subject.radius_m;
     const double error_m = is_far(aircraft) ? aircraft.far_error_m : model.errors_m[aircraft.representation];
-    const std::uint32_t colour = scene::level_colour(error_m, radius_m);
+    const std::uint32_t colour = level_colour(error_m, radius_m);
     return {colour, colour};
 }
 
@@ -62,14 +62,13 @@ Fleet::Fleet(const Scene& scene, const scene::Settings& settings) : scene_(scene
     for (const std::uint32_t model : scene.aircraft) { add(model); }
     bounding_boxes_.resize(placed_.size());
     if (scene.cockpit && settings.view.kind == scene::View::Cockpit) { add(*scene.cockpit); }
-    for (PlacedAircraft& aircraft : placed_) {
-        const AircraftModel& model = *aircraft.model;
-        aircraft.parts = std::span(parts_).subspan(aircraft.first_part, model.polygons.pivots.size() + 1);
-        refined_.push_back(model.progressive ? std::make_unique<RefinedAircraft>(
-                                                   model.progressive, refiner_options(settings), settings.shading)
-                                             : nullptr);
+    for (const PlacedAircraft& aircraft : placed_) {
+        const auto& progressive = aircraft.near_model->progressive;
+        refined_.push_back(
+            progressive ? std::make_unique<RefinedAircraft>(progressive, refiner_options(settings), settings.shading)
+                        : nullptr);
     }
-    was_refined_.resize(placed_.size());
+    last_.resize(placed_.size());
 }
 
 /// Adds an aircraft of a model, with memory for its parts and those of its far model.
@@ -97,7 +96,7 @@ void Fleet::place(
     const glm::dvec3& eye_m = view.camera.eye_m;
     for (std::size_t i = 0; i < request.states.size(); ++i) {
         sim::AircraftState state = sunk(request.states[i], eye_m, view.earth_radius_m);
-        placed_[i].is_hidden = !state.is_present;
+        placed_[i].is_absent = !state.is_present;
         // Far below the eye an absent aircraft has no shadow, no effects and no part in the painting order of others.
         if (!state.is_present) { state.position_m = eye_m - glm::dvec3(0.0, 0.0, absent_depth_m); }
         place(placed_[i], state, request.articulated_parts, view);
@@ -128,6 +127,7 @@ void Fleet::place(PlacedAircraft& aircraft, const sim::AircraftState& state,
     choose_model(aircraft, glm::length(state.position_m - eye_m), view);
     const AircraftModel& model = *aircraft.model;
     const auto parts = std::span(parts_).subspan(aircraft.first_part, model.polygons.pivots.size() + 1);
+    aircraft.parts = parts;
     place_parts(model.polygons, body_to_eye_world(state, eye_m), state.time_s, parts);
     const models::polygons::PolygonModel& numbered =
         aircraft.far_model == nullptr ? model.polygons : aircraft.near_model->polygons;
@@ -143,42 +143,41 @@ void Fleet::place(PlacedAircraft& aircraft, const sim::AircraftState& state,
     for (const scene::IndexRange& range : aircraft.ranges) { aircraft.polygon_count += range.polygons; }
 }
 
-/// Chooses between an aircraft's own model and the one that stands in for it, by the rule for levels of detail.
+/// Chooses between an aircraft's own model and its far model, by the rule for levels of detail.
 void Fleet::choose_model(PlacedAircraft& aircraft, double distance_m, const FrameView& view) {
     if (aircraft.far_model == nullptr) { return; }
     const double nearest_m = std::max(distance_m - aircraft.near_model->subject.radius_m, 0.0);
     const std::array errors_m{0.0, aircraft.far_error_m};
-    const bool far = select_level(errors_m, settings_.surface.aircraft_error_px * view.pixel_rad * nearest_m,
-                         is_far(aircraft) ? 1 : 0) == 1;
+    bool& far = last_[aircraft.number].is_far;
+    far = select_level(errors_m, settings_.surface.aircraft_error_px * view.pixel_rad * nearest_m, far ? 1 : 0) == 1;
     aircraft.model = far ? aircraft.far_model : aircraft.near_model;
     aircraft.model_index = far ? aircraft.far_index : aircraft.near_index;
-    aircraft.parts = std::span(parts_).subspan(aircraft.first_part, aircraft.model->polygons.pivots.size() + 1);
 }
 
-/// Chooses the coarsest representation that is as good as asked for; out of view the coarsest of all.
-void Fleet::choose_representation(PlacedAircraft& aircraft, const FrameView& view) const {
+/// Chooses the coarsest representation within the error that is allowed; out of view the coarsest of all.
+void Fleet::choose_representation(PlacedAircraft& aircraft, const FrameView& view) {
     const AircraftModel& model = *aircraft.model;
     if (model.polygon_representation() == 0) { return; }
     const glm::dvec3 place_m(aircraft.parts[0][3]);
     const double radius_m = model.subject.radius_m;
-    if (aircraft.is_hidden || !scene::in_view(place_m, radius_m, view.frustum)) {
+    if (aircraft.is_absent || !scene::in_view(place_m, radius_m, view.frustum)) {
         aircraft.representation = model.polygon_representation();
-        aircraft.is_represented = false; // what it is when it comes back into view is chosen anew
+        last_[aircraft.number].representation.reset();
         return;
     }
     const double nearest_m = std::max(glm::length(place_m) - radius_m, 0.0);
-    aircraft.representation = static_cast<std::size_t>(
-        select_level(model.errors_m, settings_.surface.aircraft_error_px * view.pixel_rad * nearest_m,
-            aircraft.is_represented ? static_cast<int>(aircraft.representation) : -1));
-    aircraft.is_represented = true;
+    std::optional<std::size_t>& last = last_[aircraft.number].representation;
+    aircraft.representation = static_cast<std::size_t>(select_level(model.errors_m,
+        settings_.surface.aircraft_error_px * view.pixel_rad * nearest_m, last ? static_cast<int>(*last) : -1));
+    last = aircraft.representation;
 }
 
-/// Chooses what of an aircraft's index buffer is drawn; of a refined mesh and of one that is not there nothing.
+/// Chooses the ranges of an aircraft's index buffer that are drawn: none of a refined mesh or of an absent aircraft.
 void Fleet::choose_ranges(PlacedAircraft& aircraft, const glm::dvec3& eye_in_body_m) {
     const AircraftModel& model = *aircraft.model;
     aircraft.ranges.clear();
     aircraft.list = {};
-    if (aircraft.is_hidden) { return; }
+    if (aircraft.is_absent) { return; }
     if (is_mesh(aircraft)) {
         if (!is_refined(aircraft)) { aircraft.ranges.push_back(model.levels[aircraft.representation].range); }
         return;
@@ -198,15 +197,13 @@ void Fleet::refine(const FrameView& view) {
     splits_ = 0;
     collapses_ = 0;
     for (PlacedAircraft& aircraft : placed_) {
-        const std::size_t i = aircraft.number;
-        const bool before = was_refined_[i] != 0;
-        was_refined_[i] = is_refined(aircraft) ? 1 : 0;
-        if (is_refined(aircraft)) {
-            const refine::RefinedFrame frame = refined_[i]->update(aircraft.parts[0], view, !before);
-            splits_ += static_cast<int>(frame.splits);
-            collapses_ += static_cast<int>(frame.collapses);
-            aircraft.polygon_count = refined_[i]->triangles();
-        }
+        const bool is_first = !std::exchange(last_[aircraft.number].is_refined, is_refined(aircraft));
+        if (!is_refined(aircraft)) { continue; }
+        RefinedAircraft& refined = *refined_[aircraft.number];
+        const refine::RefinedFrame frame = refined.update(aircraft.parts[0], view, is_first);
+        splits_ += static_cast<int>(frame.splits);
+        collapses_ += static_cast<int>(frame.collapses);
+        aircraft.polygon_count = refined.triangles();
     }
 }
 

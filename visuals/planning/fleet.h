@@ -12,6 +12,7 @@
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -20,20 +21,20 @@
 
 namespace octant::visuals::planning {
 
-/// The aircraft of one view, and the cockpit around its eye: where each one is in a frame, as what it is drawn
-/// (polygons in the order of its eye point, a level of detail, or a mesh refined for the frame), and the box that
-/// stands in for it. Levels and refined meshes go on from frame to frame. Keeps its memory.
+/// The aircraft of one view, and the cockpit around its eye: their places in each frame, their representations
+/// (polygons in the order for its eye point, a level of detail, or a mesh refined for the frame), and their bounding
+/// boxes. Levels of detail and refined meshes depend on the frames before.
 class Fleet {
 public:
     /// The scene and the settings must outlive it.
     Fleet(const Scene& scene, const scene::Settings& settings);
 
-    /// Decides where each aircraft is, which list it is painted by and which box stands in for it. `effect_bounds`:
-    /// what the box of each of Scene::aircraft holds, too, body axes.
+    /// Writes placed(), bounding_boxes() and parts() for a frame. `effect_bounds`: for each of Scene::aircraft the
+    /// bounds of its effects, in body axes, which its bounding box encloses, too.
     void place(const FrameView& view, const PlanRequest& request,
         std::span<const std::optional<AxisAlignedBox>> effect_bounds);
 
-    /// Refines the meshes of the aircraft that are drawn as meshes; those drawn as polygons keep theirs as they are.
+    /// Refines the progressive meshes of the aircraft that are drawn by one. Follows place().
     void refine(const FrameView& view);
 
     /// Those of Scene::aircraft, then the cockpit where the view is from inside one.
@@ -44,15 +45,15 @@ public:
     /// The boxes of Scene::aircraft.
     std::span<const OrientedBox> bounding_boxes() const { return bounding_boxes_; }
 
-    /// What is around the eye: nearer than all else. Null where the view is from outside.
+    /// The cockpit around the eye, nearer than all else; null where the view is from outside.
     const PlacedAircraft* cockpit() const {
         return placed_.size() > bounding_boxes_.size() ? &placed_.back() : nullptr;
     }
 
-    /// The meshes that are refined, one for each of placed(): null for most.
+    /// The refined mesh of each of placed(); null for models without a progressive mesh.
     std::span<const std::unique_ptr<RefinedAircraft>> refined() const { return refined_; }
 
-    /// The matrices that PlacedAircraft::first_part counts.
+    /// The list into which ViewedAircraft::first_part is an index.
     std::span<const glm::dmat4> parts() const { return parts_; }
 
     /// Vertex splits and edge collapses in all refined meshes for this frame.
@@ -61,11 +62,19 @@ public:
     int collapses() const { return collapses_; }
 
 private:
+    /// The detail of an aircraft in the last frame, on which that of this frame depends.
+    struct LastDetail {
+        bool is_far = false;
+        bool is_refined = false;
+        /// Nothing where the aircraft was out of view: its representation is then chosen without hysteresis.
+        std::optional<std::size_t> representation;
+    };
+
     void add(std::uint32_t model);
     void place(PlacedAircraft& aircraft, const sim::AircraftState& state,
         std::span<const ArticulatedPart> articulated_parts, const FrameView& view);
     void choose_model(PlacedAircraft& aircraft, double distance_m, const FrameView& view);
-    void choose_representation(PlacedAircraft& aircraft, const FrameView& view) const;
+    void choose_representation(PlacedAircraft& aircraft, const FrameView& view);
     void choose_ranges(PlacedAircraft& aircraft, const glm::dvec3& eye_in_body_m);
     OrientedBox bounding_box_of(const PlacedAircraft& aircraft, const sim::AircraftState& state,
         const std::optional<AxisAlignedBox>& effects, const FrameView& view) const;
@@ -77,8 +86,7 @@ private:
     std::vector<glm::dmat4> parts_;
     draworder::DrawOrder::Walk walk_;
     std::vector<std::unique_ptr<RefinedAircraft>> refined_;
-    /// Whether each of placed_ was drawn as a refined mesh in the last frame.
-    std::vector<std::uint8_t> was_refined_;
+    std::vector<LastDetail> last_; ///< One for each of placed_.
     int splits_ = 0;
     int collapses_ = 0;
 };

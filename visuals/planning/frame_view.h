@@ -17,67 +17,67 @@
 
 namespace octant::visuals::planning {
 
-/// How a part of an aircraft is turned and moved in place of turning by itself. Painting order takes a part as if it
-/// were not moved.
+/// A part of an aircraft that a host program turns and moves, instead of turning by time. The painting order ignores
+/// `offset_m`.
 struct ArticulatedPart {
     /// Index into Scene::aircraft.
     std::uint32_t aircraft = 0;
-    /// Index into PolygonModel::pivots of the aircraft's own model, not of one that stands in for it from afar.
+    /// Index into PolygonModel::pivots of the aircraft's own model, not of its far model.
     std::uint32_t pivot = 0;
-    /// Within body axes. The part turns about its pivot's axis alone: as far as this turns about it.
+    /// In body axes. Only the component about the pivot's axis counts.
     glm::dquat turn{1.0, 0.0, 0.0, 0.0};
-    /// Along body axes.
+    /// In body axes.
     glm::dvec3 offset_m{0.0};
 };
 
-/// How many polygons are smooth in a frame: a number, else a share from 0 to 1; neither = as the settings say.
+/// The smooth polygons of a frame: their number, else their share from 0 to 1. With neither the settings decide.
 struct SmoothTarget {
     std::optional<int> polygons;
     std::optional<double> share;
 };
 
-/// What a frame is to show, and how finely.
+/// The input of one frame.
 struct PlanRequest {
     scene::Camera camera;
     /// The states of Scene::aircraft.
     std::span<const sim::AircraftState> states;
-    /// Triangles of ground that are aimed at, at least 1; nothing = as the settings say.
+    /// The triangle budget of the ground, at least 1; nothing = that of the settings.
     std::optional<int> triangle_target = std::nullopt;
     SmoothTarget smooth = {};
     /// Lines written into the upper left corner of the picture.
     std::span<const std::string> overlay_lines = {};
-    /// Parts that do not turn by themselves.
+    /// Parts that a host program turns.
     std::span<const ArticulatedPart> articulated_parts = {};
 };
 
-/// What one frame draws.
+/// The numbers of things that one frame draws.
 struct PlanCounts {
     landscape::GroundCounts ground;
     int aircraft_polygons = 0;
     /// The cell of the first aircraft's draw order in which the eye is; 0 where it has parts.
     int draw_cell = 0;
-    /// Ground triangles and aircraft polygons painted again, cut by planes.
+    /// Ground triangles and aircraft polygons that are painted again, clipped.
     int cuts = 0;
-    /// Groups of aircraft that meet or stand in a ring, painted by polygons.
+    /// Groups of aircraft that intersect or hide each other in a cycle, painted polygon by polygon.
     int overlap_groups = 0;
-    /// Aircraft painted by depth, as they meet each other or the ground in too many places.
+    /// Aircraft painted by depth, because they intersect each other or the ground in too many places.
     int unordered = 0;
     int shadow_triangles = 0;
-    /// Triangles of roads and the runway; those of the ground have them among them, as what stands on it.
+    /// Triangles of roads and the runway; GroundCounts::triangles and scenery_triangles include them.
     int painted_triangles = 0;
-    /// Triangles in view of clouds and all else that is seen through.
+    /// Triangles of clouds and other transparent things.
     int transparent_triangles = 0;
-    /// Polygons of whole models and triangles of refined meshes, and those of them that are lit smoothly.
+    /// Polygons of whole models and triangles of refined meshes, and the smooth ones of these.
     int smoothable_polygons = 0;
     int smooth_polygons = 0;
     /// The representation of the first aircraft, 0 = the finest.
     int aircraft_level = 0;
-    /// Vertex splits and edge collapses in all meshes that are refined.
+    /// Vertex splits and edge collapses in all refined meshes.
     int refine_splits = 0;
     int refine_collapses = 0;
 };
 
-/// From where one frame is seen and what follows from that.
+/// The camera of one frame and what derives from it.
 struct FrameView {
     scene::Camera camera;
     glm::ivec2 size_px{1};
@@ -86,13 +86,13 @@ struct FrameView {
     double pixel_rad = 0.001;
     /// The sides of the view as scene::frustum_normals gives them.
     std::array<glm::dvec3, 4> frustum{};
-    /// The radius of the earth by which what is far sinks; 0 for a flat one.
+    /// The radius of the earth, by whose curvature distant things sink; 0 = a flat earth.
     double earth_radius_m = 0.0;
 };
 
 FrameView frame_view(const scene::Camera& camera, const glm::ivec2& size_px, double earth_radius_m);
 
-/// False only for a box of which nothing is in view.
+/// False only if no part of the box is in view; may be true for such a box.
 bool in_view(const OrientedBox& box, const FrameView& view);
 
 } // namespace octant::visuals::planning

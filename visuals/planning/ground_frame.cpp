@@ -67,7 +67,7 @@ void GroundInFront::find(const OrientedBox& box, const landscape::GroundMesher& 
     const scene::TriangleDraw& triangles, const glm::dvec3& eye_m) {
     candidates_.clear();
     found_.clear();
-    meeting_.clear();
+    intersecting_.clear();
     const ConvexVolume volume = sight_volume_of(box);
 
     struct Look {
@@ -92,27 +92,27 @@ void GroundInFront::find(const OrientedBox& box, const landscape::GroundMesher& 
             continue;
         }
         const BoxRelation place = relation_to(box, cone.planes());
-        if (place != BoxRelation::Elsewhere) { found_.push_back({candidate, place == BoxRelation::Meets}); }
-        if (place == BoxRelation::Meets) { meeting_.push_back(candidate); }
+        if (place != BoxRelation::Elsewhere) { found_.push_back({candidate, place == BoxRelation::Intersects}); }
+        if (place == BoxRelation::Intersects) { intersecting_.push_back(candidate); }
     }
 }
 
 GroundInFront::BoxRelation GroundInFront::relation_to(const OrientedBox& box, std::span<const glm::dvec3> cone) {
     part_ = triangle_;
     clip_to_box(part_, box, scratch_);
-    if (!part_.empty()) { return BoxRelation::Meets; }
+    if (!part_.empty()) { return BoxRelation::Intersects; }
     if (cone.empty()) {
         return BoxRelation::Elsewhere; // beyond a box that is all around the eye
     }
     part_ = triangle_;
     clip_to_cone(part_, cone, scratch_);
     if (solid_angle_sr(part_) < min_solid_angle_sr) { return BoxRelation::Elsewhere; }
-    return entry_distance(box, middle_of(part_)) > 1.0 ? BoxRelation::Before : BoxRelation::Elsewhere;
+    return entry_distance(box, middle_of(part_)) > 1.0 ? BoxRelation::InFront : BoxRelation::Elsewhere;
 }
 
-std::span<const ShadowPieces> shadows_on(const GroundFrame& ground, std::uint32_t triangle) {
-    const auto first = std::ranges::lower_bound(ground.shadows, triangle, {}, &ShadowPieces::triangle);
-    const auto last = std::ranges::upper_bound(ground.shadows, triangle, {}, &ShadowPieces::triangle);
+std::span<const PieceRange> pieces_on(const GroundFrame& ground, std::uint32_t triangle) {
+    const auto first = std::ranges::lower_bound(ground.pieces, triangle, {}, &PieceRange::triangle);
+    const auto last = std::ranges::upper_bound(ground.pieces, triangle, {}, &PieceRange::triangle);
     return {first, last};
 }
 
@@ -174,16 +174,16 @@ std::size_t remove_back_faces(const scene::TriangleDraw& draw, std::size_t first
 scene::TriangleDraw front_facing(const GroundFrame& ground, double pixel_rad, std::vector<std::uint32_t>& kept) {
     const scene::TriangleDraw& draw = ground.all;
     const auto pixel = static_cast<float>(pixel_rad);
-    kept.resize(draw.indices.size() + ground.shadow_indices.size());
+    kept.resize(draw.indices.size() + ground.piece_indices.size());
     std::size_t count = 0;
     std::size_t next = 0;
     const auto keep_until = [&](std::size_t last) {
         count += remove_back_faces(draw, next, last, pixel, std::span(kept).subspan(count));
         next = last;
     };
-    for (const ShadowPieces& shadow : ground.shadows) {
+    for (const PieceRange& shadow : ground.pieces) {
         keep_until(std::max<std::size_t>(next, std::size_t{shadow.triangle} + 1));
-        std::ranges::copy(ground.shadow_indices.subspan(shadow.first, shadow.count),
+        std::ranges::copy(ground.piece_indices.subspan(shadow.first, shadow.count),
             kept.begin() + static_cast<std::ptrdiff_t>(count));
         count += shadow.count;
     }

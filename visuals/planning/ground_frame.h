@@ -14,8 +14,8 @@
 
 namespace octant::visuals::planning {
 
-/// Convex set of points: the common front of some planes and the inside of a box along the world's axes. World axes
-/// with the eye at the origin.
+/// A convex set of points: those in front of all planes and inside a box along the world's axes. World axes with the
+/// eye at the origin.
 struct ConvexVolume {
     AxisAlignedBox extent;
     std::array<Plane, 14> planes{};
@@ -24,85 +24,85 @@ struct ConvexVolume {
     void add(const Plane& plane) { planes[static_cast<std::size_t>(count++)] = plane; }
 };
 
-/// False only when the volume holds no point of the box between two corners.
+/// False only if the volume contains no point of the box between two corners; may be true without one.
 bool may_intersect(const ConvexVolume& volume, const glm::dvec3& min_m, const glm::dvec3& max_m);
 
-/// A volume that holds all sight lines from the eye to points of a box.
+/// The volume of all lines of sight from the eye to points of a box.
 ConvexVolume sight_volume_of(const OrientedBox& box);
 
-/// A triangle of the ground that hides part of a box or meets it.
+/// A triangle of the ground that hides part of a box or intersects it.
 struct GroundInFrontTriangle {
     /// Its number in GroundMesher::triangles().
     std::uint32_t triangle = 0;
-    /// Whether it may lie before, inside and behind the box.
+    /// Whether it intersects the box; else it is wholly in front of it.
     bool intersects = false;
 };
 
-/// Finds the triangles of the ground that hide part of a box or meet it. Keeps its memory.
+/// Finds the triangles of the ground that hide part of a box or intersect it.
 ///
-/// A triangle and a box that do not meet are parted by a plane, and the eye stands on one side of it: wherever the eye
-/// sees both, the same one is nearer. So one sight line through both decides.
+/// A triangle and a box that do not intersect have a separating plane, and the eye is on one side of it: on every line
+/// of sight through both, the same one is nearer. Therefore one line of sight through both decides.
 class GroundInFront {
 public:
-    /// Looks at those of the mesher's last triangles() that face the eye. `eye_m`: world.
+    /// Searches those of the mesher's last triangles() that face the eye. `eye_m`: world axes.
     void find(const OrientedBox& box, const landscape::GroundMesher& ground, const scene::TriangleDraw& triangles,
         const glm::dvec3& eye_m);
 
-    /// In the ground's painting order.
+    /// The result, in the ground's painting order.
     std::span<const GroundInFrontTriangle> found() const { return found_; }
 
-    /// Those of them that meet the box.
-    std::span<const std::uint32_t> intersecting() const { return meeting_; }
+    /// The numbers of those that intersect the box.
+    std::span<const std::uint32_t> intersecting() const { return intersecting_; }
 
 private:
-    enum class BoxRelation { Elsewhere, Before, Meets };
+    enum class BoxRelation { Elsewhere, InFront, Intersects };
 
     BoxRelation relation_to(const OrientedBox& box, std::span<const glm::dvec3> cone);
 
     std::vector<std::uint32_t> candidates_;
     std::vector<GroundInFrontTriangle> found_;
-    std::vector<std::uint32_t> meeting_;
+    std::vector<std::uint32_t> intersecting_;
     ViewPolygon triangle_;
     ViewPolygon part_;
     ViewPolygon scratch_;
 };
 
-/// What lies on a triangle of the ground, in the order in which it is painted after it.
+/// The layers of pieces on a triangle of the ground, in painting order.
 enum class GroundLayer : std::uint32_t { Shadow, Surface, Marking, ShadowOnDecal };
 
-/// Indices of pieces that lie on one triangle, of shadows or painted, numbered as FramePlan::repaint_indices are.
-struct ShadowPieces {
+/// The pieces of one layer, decals or shadows, on one triangle of the ground: a range of GroundFrame::piece_indices.
+struct PieceRange {
     /// The number of the triangle in GroundMesher::triangles().
     std::uint32_t triangle = 0;
-    /// The place of the first index among the pieces' indices.
     std::uint32_t first = 0;
     std::uint32_t count = 0;
     GroundLayer layer = GroundLayer::Shadow;
 };
 
-/// The ground of one frame before facing, with the shadows on it.
+/// The ground of one frame with the decals and shadows on it.
 struct GroundFrame {
-    /// What GroundMesher::triangles() gave, in painting order.
+    /// GroundMesher::triangles(), in painting order, whichever way they face.
     scene::TriangleDraw all;
-    /// What lies on triangles, by ascending triangle and then from layer to layer.
-    std::span<const ShadowPieces> shadows;
-    std::span<const std::uint32_t> shadow_indices;
+    /// By ascending triangle, then by ascending layer.
+    std::span<const PieceRange> pieces;
+    /// Three for each triangle of a piece, numbered as FramePlan::repaint_indices are.
+    std::span<const std::uint32_t> piece_indices;
 };
 
-/// What lies on a triangle, in painting order.
-std::span<const ShadowPieces> shadows_on(const GroundFrame& ground, std::uint32_t triangle);
+/// The pieces on a triangle, in painting order.
+std::span<const PieceRange> pieces_on(const GroundFrame& ground, std::uint32_t triangle);
 
-/// Three corners of a triangle of the ground.
+/// Writes the three corners of a triangle of the ground to `placed`, world axes with the eye at the origin.
 void place_triangle(const scene::TriangleDraw& ground, std::uint32_t triangle, ViewPolygon& placed);
 
-/// The triangles of the ground that face the eye, in their order, each with its shadow pieces directly behind it, as a
-/// draw of the same vertices; `kept` holds its indices. Triangles seen so nearly edge-on that a renderer's rounding of
-/// screen positions may turn them round are kept too: a renderer that drops them by their unrounded facing leaves holes
-/// of single pixels. `pixel_rad`: angle that a pixel covers in the middle of the picture.
+/// The triangles of the ground that face the eye, in their order, each followed by its pieces; the indices are written
+/// to `kept`. Triangles that are seen nearly edge-on are included, because a renderer's rounding of screen positions
+/// may make them face the eye: without them single pixels would be holes. `pixel_rad`: the angle that a pixel covers in
+/// the middle of the picture.
 scene::TriangleDraw front_facing(const GroundFrame& ground, double pixel_rad, std::vector<std::uint32_t>& kept);
 
-/// The same triangles without shadows, those that face away but for rounding at the end: `edge_on_indices` is how many
-/// indices these have.
+/// The same triangles without pieces. Those that face the eye by rounding only come last: `edge_on_indices` is set to
+/// the number of their indices.
 scene::TriangleDraw front_facing_first(
     const scene::TriangleDraw& draw, double pixel_rad, std::vector<std::uint32_t>& kept, std::size_t& edge_on_indices);
 

@@ -22,18 +22,18 @@ namespace octant::visuals::planning {
 
 namespace {
 
-/// What corners of a layer are multiplied by: each layer lies before the one below it for a depth buffer, by 256 steps
-/// of a float, and in the same place of the picture.
+/// The scale factor of a layer's corners towards the eye: for a depth buffer each layer is in front of the one below by
+/// 256 float steps, at the same pixels.
 float depth_offset_factor(GroundLayer layer) { return 1.0F - static_cast<float>(layer) * 0x1p-15F; }
 
 } // namespace
 
-/// What lies on the ground of a frame: pieces and their indices, and the decals, on which shadows fall.
+/// The pieces on the ground of a frame with their indices, and the decals, on which shadows fall.
 struct PieceList {
     std::size_t ground_vertices = 0;
-    std::vector<models::ColourVertex>* vertices = nullptr; ///< numbered on after the ground's
+    std::vector<models::ColourVertex>* vertices = nullptr; ///< Their numbers follow those of the ground's vertices.
     std::vector<std::uint32_t> indices;
-    std::vector<ShadowPieces> pieces;
+    std::vector<PieceRange> pieces;
     std::vector<GroundDecal> decals;
     std::vector<glm::dvec3> decal_corners_m;
     int decal_triangles = 0;
@@ -56,7 +56,7 @@ struct PieceList {
         for (std::uint32_t i = 2; i < corners; ++i) { indices.insert(indices.end(), {base, base + i - 1, base + i}); }
     }
 
-    /// Adds what `indices` holds from one on as a piece, unless that is nothing.
+    /// Adds the indices from `first` to the end as a piece, if there are any.
     void add_range(std::uint32_t triangle, GroundLayer layer, std::size_t first) {
         if (indices.size() > first) {
             pieces.push_back({triangle, static_cast<std::uint32_t>(first),
@@ -76,13 +76,9 @@ constexpr double min_area_m2 = 1e-5;
 constexpr double overlap_px = 0.01;
 constexpr double max_overlap = 0.05; ///< of the distance from the eye
 
-double area2(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c) {
-    return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
-}
-
-/// How far a corner of an edge moves across it in a plane, along a vector of length 1 on the map, so that the eye sees
-/// it move by an angle. `across` is in the plane, `sideways` a unit vector across the plane through the eye and the
-/// edge.
+/// The distance by which a corner of an edge must move across the edge so that the eye sees it move by an angle. Unit:
+/// the map length of `across`, a vector in the triangle's plane. `sideways`: a unit vector normal to the plane through
+/// the eye and the edge.
 double moved_m(const glm::dvec3& corner_m, const glm::dvec3& across, const glm::dvec3& sideways, double angle_rad) {
     const double seen = std::abs(glm::dot(across, sideways));
     return glm::length(corner_m) * std::min(angle_rad / std::max(seen, 1e-9), max_overlap);
@@ -90,9 +86,9 @@ double moved_m(const glm::dvec3& corner_m, const glm::dvec3& across, const glm::
 
 } // namespace
 
-/// Cuts patches to triangles of the ground: each decal lies in the plane of its triangle, whatever the mesh, and
-/// reaches a little beyond its sides, so that no gap shows between two of them. On the plan positions are metres east
-/// and north of the eye.
+/// Clips patches to triangles of the ground. Each decal is in the plane of its triangle and reaches a little beyond its
+/// sides, so that there is no gap between two decals. Positions in plan are metres east and north of the eye. The
+/// current triangle is the one of set_triangle().
 class DecalClipper {
 public:
     explicit DecalClipper(PieceList& pieces) : pieces_(pieces) {}
@@ -102,7 +98,7 @@ public:
         overlap_rad_ = overlap_px * ground.view.pixel_rad;
     }
 
-    /// Lays what is seen of a decoration on the triangles, the nearest first: as GroundPieces::lay().
+    /// GroundPieces::lay().
     void lay(nature::GroundDecoration& decoration, int max_triangles) {
         const glm::dvec3& eye_m = ground_->view.camera.eye_m;
         const int limit = pieces_.decal_triangles + max_triangles - max_decal_triangles;
@@ -132,7 +128,7 @@ public:
     }
 
 private:
-    /// The most triangles of one decal: three cuts add a corner each.
+    /// The largest number of triangles of a decal: three cuts add a corner each.
     static constexpr int max_decal_triangles = 5;
 
     /// A convex polygon on the plan.
@@ -143,7 +139,8 @@ private:
 
     using SideFlags = std::array<bool, 3>;
 
-    /// A side of the triangle, a unit vector outwards, and how far its ends move along that for one overlap.
+    /// A side of the triangle, its outward unit vector, and the distances by which its ends move along that for one
+    /// overlap.
     struct Side {
         glm::dvec2 from_m;
         glm::dvec2 to_m;
@@ -159,14 +156,14 @@ private:
         for (std::size_t i = 0; i < 3; ++i) { corners_on_plan_m_[i] = glm::dvec2(triangle_[i].at_m); }
     }
 
-    /// False where the eye sees nothing of the triangle at hand.
+    /// False if the current triangle is not visible; may be true for such a triangle.
     bool is_seen() const {
         const glm::dvec3& a = triangle_[0].at_m;
         const glm::dvec3 up = glm::cross(triangle_[1].at_m - a, triangle_[2].at_m - a);
         return up.z > 0.0 && glm::dot(up, a) < 0.0 && may_be_in_view();
     }
 
-    /// False only for a triangle of which nothing is in view, nor of what lies a little beyond its sides.
+    /// False only if neither the triangle nor a margin of a pixel around it is in view.
     bool may_be_in_view() const {
         return std::ranges::all_of(ground_->view.frustum, [&](const glm::dvec3& inwards) {
             return std::ranges::any_of(triangle_, [&](const ViewVertex& corner) {
@@ -176,7 +173,7 @@ private:
         });
     }
 
-    /// Of the corners of the triangle at hand, display values.
+    /// The mean colour of the current triangle's corners, display values.
     glm::vec3 mean_colour() const {
         const std::uint32_t* const corner = &ground_->triangles.indices[std::size_t{3} * number_];
         glm::vec3 sum(0.0F);
@@ -187,15 +184,15 @@ private:
         return sum / (3.0F * 255.0F);
     }
 
-    /// Whether the triangle at hand is water, or stands on the ground and is no part of it.
+    /// Whether the current triangle is water, or belongs to scenery and not to the ground.
     bool is_on_water() const {
         const std::uint32_t* const corner = &ground_->triangles.indices[std::size_t{3} * number_];
         return std::all_of(corner, corner + 3,
             [&](std::uint32_t vertex) { return ground_->triangles.vertices[vertex].colour >> 24U == 0; });
     }
 
-    /// Computes the plane and the sides of the triangle at hand, and how far each end moves outwards to overlap: on
-    /// most triangles nothing is laid.
+    /// Computes the plane and the sides of the current triangle. Done only for triangles that get a decal, which are
+    /// few.
     void place_sides() {
         has_sides_ = true;
         plane_ = plane_of(triangle_);
@@ -212,14 +209,14 @@ private:
         }
     }
 
-    /// Cuts off what lies to the right of a line.
+    /// Cuts off the part to the right of a line.
     static void cut(ClippedPatch& piece, const glm::dvec2& from, const glm::dvec2& to) {
         ClippedPatch kept;
         for (std::size_t i = 0; i < piece.count; ++i) {
             const glm::dvec2& a = piece.corners[i];
             const glm::dvec2& b = piece.corners[i + 1 < piece.count ? i + 1 : 0];
-            const double a_side = area2(from, to, a);
-            const double b_side = area2(from, to, b);
+            const double a_side = signed_area2(from, to, a);
+            const double b_side = signed_area2(from, to, b);
             if (a_side >= 0.0) { kept.corners[kept.count++] = a; }
             if ((a_side > 0.0 && b_side < 0.0) || (a_side < 0.0 && b_side > 0.0)) {
                 kept.corners[kept.count++] = glm::mix(a, b, a_side / (a_side - b_side));
@@ -228,13 +225,13 @@ private:
         piece = kept;
     }
 
-    /// Which sides of the triangle at hand cut a patch; nothing where it lies beyond one of them.
+    /// The sides of the current triangle that cut a patch; nothing if the patch is beyond one of them.
     std::optional<SideFlags> sides_across(const ClippedPatch& patch) const {
         SideFlags across{};
         for (std::size_t side = 0; side < sides_.size(); ++side) {
             std::size_t inside = 0;
             for (std::size_t i = 0; i < patch.count; ++i) {
-                const bool is_in = area2(sides_[side].from_m, sides_[side].to_m, patch.corners[i]) >= 0.0;
+                const bool is_in = signed_area2(sides_[side].from_m, sides_[side].to_m, patch.corners[i]) >= 0.0;
                 inside += is_in ? 1U : 0U;
             }
             if (inside == 0) { return std::nullopt; }
@@ -243,7 +240,7 @@ private:
         return across;
     }
 
-    /// A patch cut to some sides of the triangle at hand, which move out by so many overlaps.
+    /// A patch clipped to some sides of the current triangle, moved outwards by this number of overlaps.
     ClippedPatch piece_of(const ClippedPatch& patch, const SideFlags& across, double overlaps) const {
         ClippedPatch piece = patch;
         for (std::size_t i = 0; i < sides_.size(); ++i) {
@@ -256,13 +253,13 @@ private:
         return piece;
     }
 
-    /// Adds what of a patch lies on the triangle at hand, if anything does, a little beyond its sides: a marking twice
-    /// as far as the surface below it, which must not show along its ends.
+    /// Adds the part of a patch on the current triangle, if there is any, as a decal. A marking overlaps the triangle's
+    /// sides twice as far as the surface below it, which must not show along its ends.
     void add_decal(const nature::GroundPatch& patch) {
         const auto area_m2 = [](const ClippedPatch& piece) {
             double sum_m2 = 0.0;
             for (std::size_t i = 2; i < piece.count; ++i) {
-                sum_m2 += 0.5 * area2(piece.corners[0], piece.corners[i - 1], piece.corners[i]);
+                sum_m2 += 0.5 * signed_area2(piece.corners[0], piece.corners[i - 1], piece.corners[i]);
             }
             return sum_m2;
         };
@@ -294,8 +291,8 @@ private:
     std::optional<GroundPieces::Ground> ground_;
     double overlap_rad_ = 0.0;
     std::vector<std::uint32_t> candidates_;
-    std::vector<nature::GroundPatch> patches_; ///< that may lie on the triangle at hand
-    // The triangle at hand.
+    std::vector<nature::GroundPatch> patches_; ///< Those that may be on the current triangle.
+    // The current triangle.
     std::uint32_t number_ = 0;
     ViewPolygon triangle_;
     bool has_sides_ = false;
@@ -319,14 +316,14 @@ glm::vec4 unpacked(std::uint32_t colour) {
            255.0F;
 }
 
-/// Darkened; alpha too, where it says how much light is left.
+/// The colour in shadow. The alpha is darkened, too, if it is the light that reaches the ground.
 std::uint32_t shaded(const glm::vec4& colour, bool is_light) {
     const float left = is_light ? shadow_share : 1.0F;
     const auto alpha = static_cast<std::uint32_t>(255.0F * left * colour.w + 0.5F);
     return (models::packed_colour(glm::vec3(colour) * shadow_share) & 0x00ffffffU) | alpha << 24U;
 }
 
-/// What the light through a hull reaches up to `path_m` below its middle and `reach_m` beyond.
+/// The volume of the light through a box from its middle down to `path_m` along the light, and `reach_m` beyond.
 ConvexVolume shadow_volume_of(const OrientedBox& hull, const glm::dvec3& to_sun, double path_m, double reach_m) {
     const AxisAlignedBox extent = world_bounds(hull);
     const glm::dvec3 down_m = to_sun * -(path_m + reach_m);
@@ -337,12 +334,7 @@ ConvexVolume shadow_volume_of(const OrientedBox& hull, const glm::dvec3& to_sun,
     return volume;
 }
 
-double plan_area(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
-    return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
-}
-
-/// The upright plane through an edge of a polygon that lies counter-clockwise seen from above, with the polygon in
-/// front of it.
+/// The vertical plane through an edge of a polygon that is counter-clockwise from above; the polygon is in front of it.
 Plane side_of(const glm::dvec3& from_m, const glm::dvec3& to_m) {
     const glm::dvec3 edge_m = to_m - from_m;
     const glm::dvec3 inward(-edge_m.y, edge_m.x, 0.0);
@@ -351,10 +343,10 @@ Plane side_of(const glm::dvec3& from_m, const glm::dvec3& to_m) {
 
 } // namespace
 
-/// Shadows of aircraft: each polygon that faces the sun, thrown along the sunlight onto each triangle of the ground
-/// below and cut off at the triangle's sides. The pieces are opaque and have the triangle's own colours, darkened, so
-/// that pieces on pieces change nothing; decals on a triangle have shadows of their own. Light ends at the ground it
-/// meets first; ground shadows no ground.
+/// Shadows of aircraft: each polygon that faces the sun is projected along the sunlight onto each triangle of the
+/// ground below and clipped to that triangle. The pieces are opaque and have the triangle's own colours, darkened, so
+/// that overlapping pieces change nothing; decals have shadows of their own. Only the first ground on the way of the
+/// light has the shadow; ground casts no shadow here.
 class ShadowCaster {
 public:
     explicit ShadowCaster(PieceList& pieces) : pieces_(pieces) {}
@@ -364,7 +356,7 @@ public:
         decals_by_triangle_.clear();
     }
 
-    /// As GroundPieces::cast().
+    /// GroundPieces::cast().
     void cast(const PlacedAircraft& aircraft, const OrientedBox& hull, const glm::dvec3& to_sun) {
         const bool is_high_enough = to_sun.z >= std::sin(rad_from_deg(min_sun_elevation_deg));
         if (!is_high_enough || ground_->triangles.indices.empty()) { return; }
@@ -376,7 +368,7 @@ public:
         const glm::dvec3 position_m = hull.centre_m - to_sun_ * path_m;
         const AxisAlignedBox& extent = aircraft.model->hull;
         const double size_m = 0.5 * glm::distance(extent.min_m, extent.max_m);
-        // On a slope that falls away from the sun a shadow is longer than on the level.
+        // On a slope that falls away from the sun a shadow is longer than on level ground.
         const double reach_m = 2.0 * size_m / to_sun_.z;
         if (2.0 * size_m < min_shadow_px * view.pixel_rad * glm::length(position_m) ||
             !scene::in_view(position_m, reach_m, view.frustum)) {
@@ -412,8 +404,8 @@ private:
         std::size_t count = 0;
     };
 
-    /// Length of the light's way from the middle of the hull to the ground; negative when it meets none or the middle
-    /// lies under it.
+    /// The length of the light's path from the middle of the box to the ground; negative if it reaches no ground, or
+    /// the middle is below the ground.
     double light_path_m(const OrientedBox& hull, const landscape::Ground& ground, const glm::dvec3& eye_m) const {
         const glm::dvec3 from_m = hull.centre_m + eye_m;
         const auto height_over_ground_m = [&](double path_m) -> std::optional<double> {
@@ -440,7 +432,7 @@ private:
         return -1.0;
     }
 
-    /// The polygons that face the sun, where they are.
+    /// Collects the placed polygons that face the sun.
     void collect_faces(const PlacedAircraft& aircraft) {
         faces_.clear();
         face_corners_.clear();
@@ -459,7 +451,7 @@ private:
         const Plane plane = plane_of(triangle_);
         const double slope = glm::dot(plane.normal, to_sun_);
         if (slope <= 0.01 || plane.offset_m <= 0.0 || plane.normal.z <= 0.0) {
-            return; // the sun does not reach it or the eye does not see it
+            return; // It faces away from the sun or from the eye.
         }
         std::array<Plane, 3> sides;
         for (std::size_t i = 0; i < 3; ++i) { sides[i] = side_of(triangle_[i].at_m, triangle_[(i + 1) % 3].at_m); }
@@ -485,16 +477,16 @@ private:
         if (!pieces_.decals.empty() && !shadow_ends_.empty()) { add_on_decals(triangle); }
     }
 
-    /// part_ as a fan with the triangle's colours, darkened.
+    /// Adds part_ as a fan with the triangle's colours, darkened.
     void add_piece(std::uint32_t triangle) {
         const std::uint32_t* corner = &ground_->triangles.indices[std::size_t{3} * triangle];
         const glm::dvec3& a = triangle_[0].at_m;
         const glm::dvec3& b = triangle_[1].at_m;
         const glm::dvec3& c = triangle_[2].at_m;
-        const double whole = plan_area(a, b, c);
+        const double whole = signed_area2(a, b, c);
         for (const ViewVertex& at : part_) {
-            const double share_a = plan_area(at.at_m, b, c) / whole;
-            const double share_b = plan_area(a, at.at_m, c) / whole;
+            const double share_a = signed_area2(at.at_m, b, c) / whole;
+            const double share_b = signed_area2(a, at.at_m, c) / whole;
             const glm::vec4 colour =
                 unpacked(ground_->triangles.vertices[corner[0]].colour) * static_cast<float>(share_a) +
                 unpacked(ground_->triangles.vertices[corner[1]].colour) * static_cast<float>(share_b) +
@@ -504,7 +496,7 @@ private:
         pieces_.add_fan(part_.size());
     }
 
-    /// The shadows on a triangle once more, cut to what is painted on it and darker than that.
+    /// Adds the shadows on a triangle again, clipped to its decals and in their darkened colours.
     void add_on_decals(std::uint32_t triangle) {
         const auto triangle_of = [&](std::uint32_t decal) { return pieces_.decals[decal].triangle; };
         auto own = std::ranges::lower_bound(decals_by_triangle_, triangle, {}, triangle_of);
@@ -542,13 +534,13 @@ private:
     PieceList& pieces_;
     std::optional<GroundPieces::Ground> ground_;
     glm::dvec3 to_sun_{0.0, 0.0, 1.0};
-    std::vector<std::uint32_t> decals_by_triangle_; ///< places in PieceList::decals
+    std::vector<std::uint32_t> decals_by_triangle_; ///< Indices into PieceList::decals.
     std::vector<std::uint32_t> candidates_;
     std::vector<Face> faces_;
     std::vector<ViewVertex> face_corners_;
     ViewPolygon triangle_;
     ViewPolygon part_;
-    /// The shadows on one triangle's plane that meet it, not yet cut to it, one after the other, and where each ends.
+    /// The shadows in one triangle's plane that intersect it, not clipped to it, and the end of each in that list.
     std::vector<ViewVertex> shadow_parts_;
     std::vector<std::size_t> shadow_ends_;
     ViewPolygon scratch_;
@@ -582,8 +574,8 @@ void GroundPieces::cast(const PlacedAircraft& aircraft, const OrientedBox& hull,
 
 GroundFrame GroundPieces::finish() {
     PieceList& list = memory_->list;
-    std::ranges::sort(list.pieces, {},
-        [](const ShadowPieces& piece) { return std::tuple(piece.triangle, piece.layer, piece.first); });
+    std::ranges::sort(
+        list.pieces, {}, [](const PieceRange& piece) { return std::tuple(piece.triangle, piece.layer, piece.first); });
     return {memory_->triangles, list.pieces, list.indices};
 }
 

@@ -17,19 +17,19 @@
 
 namespace octant::visuals::planning {
 
-/// A convex polygon in the plane of a triangle of the ground and inside it, opaque and of one colour: that of a vertex
-/// without the ground's fine pattern or texture.
+/// An opaque convex polygon of one colour, without detail pattern or texture, inside a triangle of the ground and in
+/// its plane.
 struct GroundDecal {
-    std::uint32_t triangle = 0; ///< its number in GroundMesher::triangles()
-    std::uint32_t first = 0;    ///< of its corners
+    std::uint32_t triangle = 0; ///< Its number in GroundMesher::triangles().
+    std::uint32_t first = 0;    ///< The index of its first corner.
     std::uint32_t count = 0;
     std::uint32_t colour = 0;
     GroundLayer layer = GroundLayer::Surface;
 };
 
 /// Makes the pieces that lie on the ground of a frame, each cut to one triangle of the ground: decals of decorations,
-/// and shadows of aircraft on the ground and on the decals. For each frame: begin(), lay() and cast() in this order,
-/// finish(). Keeps its memory.
+/// and shadows of aircraft on the ground and on the decals. Calls for each frame: begin(), all lay(), all cast(),
+/// finish().
 class GroundPieces {
 public:
     GroundPieces();
@@ -39,24 +39,25 @@ public:
     GroundPieces& operator=(GroundPieces&&) = delete;
     ~GroundPieces();
 
-    /// The ground of a frame. All of it must stay until the next begin().
+    /// The ground of a frame. All members must stay until the next begin().
     struct Ground {
         const FrameView& view;
         const landscape::GroundMesher& mesher;
-        scene::TriangleDraw triangles;   ///< GroundMesher::triangles before facing
-        bool is_front_to_back = false;   ///< whether the nearest triangles come first
-        bool has_light_in_alpha = false; ///< whether the alpha of its colours is the light that is left there
+        scene::TriangleDraw triangles;   ///< All of GroundMesher::triangles(), whichever way they face.
+        bool is_front_to_back = false;   ///< Whether the nearest triangles come first.
+        bool has_light_in_alpha = false; ///< Whether the alpha of its colours is the light that reaches them.
     };
 
-    /// Forgets the last frame. The corners of pieces go to `vertices` and are numbered on after the ground's.
+    /// Forgets the last frame. The corners of pieces are written to `vertices`; their numbers follow those of the
+    /// ground's vertices.
     void begin(const Ground& ground, std::vector<models::ColourVertex>& vertices);
 
-    /// Lays what is seen of a decoration, on the nearest triangles first: all patches that are required, and others
-    /// while they have at most so many triangles.
+    /// Adds the visible decals of a decoration, on the nearest triangles first: all required patches, and others while
+    /// the decals have at most `max_triangles`.
     void lay(nature::GroundDecoration& decoration, int max_triangles);
 
-    /// Casts the shadow of an aircraft inside `hull`, unless it is under 2 pixels or out of view, or the sun is so low
-    /// that shadows would be longer than 19 heights. `to_sun`: unit vector, world axes.
+    /// Adds the shadow of an aircraft inside the box `hull`, unless it is smaller than 2 pixels or out of view, or the
+    /// sun is so low that shadows would be longer than 19 heights. `to_sun`: unit vector, world axes.
     void cast(const PlacedAircraft& aircraft, const OrientedBox& hull, const glm::dvec3& to_sun);
 
     /// The ground with all pieces since begin(); valid until the next call of another member.
@@ -67,7 +68,7 @@ public:
     /// The corners of a decal, world axes with the eye subtracted, counter-clockwise seen from above.
     std::span<const glm::dvec3> corners_of(const GroundDecal& decal) const;
 
-    /// Triangles of all decals.
+    /// The number of triangles of all decals.
     int decal_triangles() const;
 
 private:

@@ -9,21 +9,20 @@
 
 namespace octant::visuals::planning {
 
-/// Turns plans into plans whose picture says in each pixel's colour which polygon it shows: of an aircraft (a split
-/// polygon counts as one, each aircraft for itself), which triangle of the ground or which colour of a road or a runway
-/// on it; 0 is nothing. The painting steps stay those of the plan, but for sky and overlay, so that a renderer draws
-/// both alike. For pictures with one sample a pixel, of plans without shadows.
+/// Turns plans into plans whose pictures have polygon numbers as colours: each polygon of each aircraft (a split
+/// polygon is one), each triangle of the ground and each colour of a road or a runway has a number; 0 is the
+/// background. Sky and overlay are left out; the other painting steps are those of the plan, so that a renderer draws
+/// both in the same way. For pictures with one sample a pixel, of plans without shadows.
 class IdPlan {
 public:
-    /// The scene must outlive it. Throws Error for one with a mesh that is refined in each frame: its triangles have no
-    /// numbers.
+    /// The scene must outlive it. Throws Error for one with a progressive mesh, whose triangles have no numbers.
     explicit IdPlan(const Scene& scene);
 
-    /// What a renderer has to load for these plans, in place of the scene's models.
+    /// The models that a renderer must load for these plans, in place of the scene's.
     const std::vector<scene::ModelBuffers>& models() const { return models_; }
 
-    /// Valid until the next call, and as long as `plan`. A triangle of the ground has the same number in every plan in
-    /// which its corners lie in the same places.
+    /// The plan with numbers, valid until the next call and as long as `plan`. A triangle of the ground has the same
+    /// number in every plan in which its corners have the same positions.
     const scene::FramePlan& of(const scene::FramePlan& plan);
 
 private:
@@ -31,10 +30,10 @@ private:
 
     /// One or two for each aircraft, then the cockpit.
     std::vector<scene::ModelBuffers> models_;
-    /// By AircraftDraw::first_part.
+    /// The index is AircraftDraw::first_part.
     std::vector<std::uint32_t> model_of_part_;
 
-    /// An aircraft that a plan may draw as another model of the scene, which has numbers too.
+    /// An aircraft with a far model, which has numbers of its own.
     struct FarModelIds {
         std::uint32_t first_part = 0;
         /// Index into Scene::models.

@@ -30,8 +30,7 @@
 
 namespace octant::visuals::planning {
 
-/// What lies over the picture of one view: marks of the path's legs, dials, the head-up display and lines of text.
-/// Keeps its memory.
+/// The overlay of one view: marks of the path's legs, dials, the head-up display and lines of text.
 class FrameOverlay {
 public:
     /// The scene and the settings must outlive it.
@@ -87,79 +86,7 @@ private:
 
 namespace {
 
-/// At the ground's mean height. Without a sky the haze is the background all around.
-scene::Haze haze_of(const scene::AirSettings& air, const nature::Daylight& day) {
-    scene::Haze haze{air.background, static_cast<float>(air.visibility_m)};
-    haze.falloff_per_m = air.haze_height_m > 0.0 ? static_cast<float>(1.0 / air.haze_height_m) : 0.0F;
-    if (air.sky) {
-        haze.colour = day.haze_away();
-        haze.horizontal_to_sun = glm::vec2(day.horizontal_to_sun());
-        haze.sunward_colour = day.haze_sunward();
-    }
-    return haze;
-}
-
-double distance_to_edge_m(const landscape::Ground& ground, const glm::dvec3& eye_m) {
-    const glm::dvec2 half_m = ground.half_extent_m();
-    return std::max(std::min(half_m.x - std::abs(eye_m.x), half_m.y - std::abs(eye_m.y)), 0.0);
-}
-
-} // namespace
-
-/// The light, the haze and the sky of one view.
-class Atmosphere {
-public:
-    /// Under the sun of the settings. The scene and the settings must outlive it.
-    Atmosphere(const Scene& scene, const scene::AirSettings& settings)
-        : scene_(scene), settings_(settings), daylight_(landscape::daylight_of(settings)),
-          to_sun_(landscape::direction_to_sun(settings)), haze_(haze_of(settings, daylight_)),
-          sky_(daylight_, settings.sky ? scene.ground->backdrop() : nature::Backdrop()) {}
-
-    const nature::Daylight& daylight() const { return daylight_; }
-
-    /// The direction to the sun: a unit vector, world axes.
-    const glm::dvec3& to_sun() const { return to_sun_; }
-
-    /// Writes light, haze and sky of a frame into its plan; valid until the next frame.
-    void write(const FrameView& view, scene::FramePlan& plan) {
-        const glm::dvec3& eye_m = view.camera.eye_m;
-        const landscape::Ground& ground = *scene_.ground;
-        plan.to_sun = glm::vec3(to_sun_);
-        plan.ambient = daylight_.ambient();
-        plan.sunlight = daylight_.sunlight();
-        plan.haze = haze_;
-        plan.haze.visibility_m = visibility_m(eye_m.z);
-        if (settings_.sky) {
-            plan.sky = sky_.around({eye_m.z - ground.mean_height_m(), distance_to_edge_m(ground, eye_m),
-                                       ground.mean_colour(), view.earth_radius_m},
-                plan.haze, eye_m);
-        }
-    }
-
-private:
-    /// How far one sees at a height: the air is as thick as the settings say at the ground's mean one.
-    float visibility_m(double eye_height_m) const {
-        const double mean_m = scene_.ground->mean_height_m();
-        double thinner = 1.0;
-        if (settings_.haze_height_m > 0.0) {
-            const double above_m = eye_height_m - (std::isfinite(mean_m) ? mean_m : 0.0);
-            thinner = std::exp(std::clamp(above_m / settings_.haze_height_m, -3.0, 30.0));
-        }
-        return static_cast<float>(settings_.visibility_m * thinner);
-    }
-
-    const Scene& scene_;
-    const scene::AirSettings& settings_;
-    nature::Daylight daylight_;
-    glm::dvec3 to_sun_;
-    /// The haze at the ground's mean height.
-    scene::Haze haze_;
-    Sky sky_;
-};
-
-namespace {
-
-/// Where the fine pattern lies on the ground of a frame.
+/// The place of the detail pattern on the ground of a frame.
 scene::DetailTexture ground_detail_texture(
     std::shared_ptr<const scene::LandCoverContrast> contrast, const glm::dvec3& eye_m) {
     scene::DetailTexture detail_texture;
@@ -175,7 +102,7 @@ scene::DetailTexture ground_detail_texture(
 
 } // namespace
 
-/// What stays from frame to frame. plan() names the stages of a frame in their order.
+/// The planner itself. plan() names the stages of a frame in their order, and the private functions follow that order.
 class Planner::Impl {
 public:
     Impl(const Scene& scene, const scene::Settings& settings, std::unique_ptr<landscape::GroundMesher> mesher)
@@ -196,7 +123,7 @@ public:
         const scene::Settings& settings = before->settings_;
         before->reuse_mesher();
         const bool settled =
-            before->is_settled_ && scene::same_detail_control(settings.ground.lod, before->control_.lod);
+            before->is_settled_ && terrain::same_detail_control(settings.ground.lod, before->control_.lod);
         std::unique_ptr<landscape::GroundMesher> mesher = std::move(before->mesher_);
         before.reset();
         auto impl = std::make_unique<Impl>(scene, settings, std::move(mesher));
@@ -253,39 +180,8 @@ public:
     }
 
 private:
-    landscape::MeshSettings mesh_settings() const {
-        return landscape::mesh_settings(settings_, scene_.ground_texture != nullptr);
-    }
-
-    void reuse_mesher() {
-        const landscape::GroundMesher* const before = mesher_.get();
-        mesher_ = landscape::reuse_or_make_mesher(std::move(mesher_), *scene_.ground, mesh_settings());
-        is_settled_ = is_settled_ && mesher_.get() == before;
-    }
-
     FrameView view_of(const scene::Camera& camera) const {
         return frame_view(camera, settings_.view.size_px, mesher_->earth_radius_m());
-    }
-
-    int requested_triangles(std::optional<int> triangle_target) const {
-        return triangle_target.value_or(scene::triangle_target(settings_));
-    }
-
-    /// The triangles of the ground are those that are aimed at without those that lie on it.
-    landscape::MeshRequest ground_request(const scene::Camera& camera, std::optional<int> triangle_target) const {
-        const int asked = requested_triangles(triangle_target);
-        const FrameView view = view_of(camera);
-        int lying = 0;
-        for (const auto& decoration : mesher_->decorations()) {
-            lying += decoration->max_patch_triangles(camera.eye_m, view.pixel_rad, asked);
-        }
-        return {camera, view.aspect, asked >= scene::unlimited_triangles ? asked : std::max(asked - lying, 1)};
-    }
-
-    SmoothChoice::Count choose_smooth(const SmoothTarget& smooth_target) {
-        const nature::Daylight& day = atmosphere_->daylight();
-        return smooth_.choose(fleet_.placed(), fleet_.refined(), smooth_target, atmosphere_->to_sun(),
-            glm::vec2(day.ambient().x, day.sunlight().x), plan_.smooth);
     }
 
     /// Empties the lists of the plan and writes what depends on the view and the aircraft alone.
@@ -309,7 +205,22 @@ private:
         }
     }
 
-    /// Meshes the ground, lays decorations on it within the triangles that are kept for them, and casts shadows.
+    int requested_triangles(std::optional<int> triangle_target) const {
+        return triangle_target.value_or(scene::triangle_target(settings_));
+    }
+
+    /// The mesh of the ground gets the requested triangles less those of decorations that lie on it.
+    landscape::MeshRequest ground_request(const scene::Camera& camera, std::optional<int> triangle_target) const {
+        const int asked = requested_triangles(triangle_target);
+        const FrameView view = view_of(camera);
+        int lying = 0;
+        for (const auto& decoration : mesher_->decorations()) {
+            lying += decoration->max_patch_triangles(camera.eye_m, view.pixel_rad, asked);
+        }
+        return {camera, view.aspect, asked >= terrain::unlimited_triangles ? asked : std::max(asked - lying, 1)};
+    }
+
+    /// Meshes the ground, lays decorations on it within the rest of the requested triangles, and casts shadows.
     GroundFrame make_ground(const PlanRequest& request, const FrameView& view, PlanCounts& counts) {
         const scene::TriangleDraw triangles =
             mesher_->triangles(ground_request(request.camera, request.triangle_target), counts.ground);
@@ -318,8 +229,8 @@ private:
             {view, *mesher_, triangles, is_front_to_back, plan_.ground_texture.has_value()}, plan_.shadow_vertices);
         const int asked = requested_triangles(request.triangle_target);
         for (const auto& decoration : mesher_->decorations()) {
-            const int most = decoration->max_patch_triangles(view.camera.eye_m, view.pixel_rad, asked);
-            pieces_.lay(*decoration, asked >= scene::unlimited_triangles ? asked : most);
+            const int max_triangles = decoration->max_patch_triangles(view.camera.eye_m, view.pixel_rad, asked);
+            pieces_.lay(*decoration, asked >= terrain::unlimited_triangles ? asked : max_triangles);
         }
         const auto bounding_boxes = fleet_.bounding_boxes();
         for (std::size_t i = 0; settings_.surface.shadows && i < bounding_boxes.size(); ++i) {
@@ -329,8 +240,14 @@ private:
         counts.painted_triangles = pieces_.decal_triangles();
         counts.ground.triangles += counts.painted_triangles;
         counts.ground.scenery_triangles += counts.painted_triangles;
-        counts.shadow_triangles = static_cast<int>(ground.shadow_indices.size() / 3) - counts.painted_triangles;
+        counts.shadow_triangles = static_cast<int>(ground.piece_indices.size() / 3) - counts.painted_triangles;
         return ground;
+    }
+
+    SmoothChoice::Count choose_smooth(const SmoothTarget& smooth_target) {
+        const nature::Daylight& day = atmosphere_->daylight();
+        return smooth_.choose(fleet_.placed(), fleet_.refined(), smooth_target, atmosphere_->to_sun(),
+            glm::vec2(day.ambient().x, day.sunlight().x), plan_.smooth);
     }
 
     void count(const SmoothChoice::Count& shaded, PlanCounts& counts) const {
@@ -350,12 +267,22 @@ private:
         counts.transparent_triangles = static_cast<int>(transparents_.draw().indices.size() / 3);
     }
 
+    landscape::MeshSettings mesh_settings() const {
+        return landscape::mesh_settings(settings_, scene_.ground_texture != nullptr);
+    }
+
+    void reuse_mesher() {
+        const landscape::GroundMesher* const before = mesher_.get();
+        mesher_ = landscape::reuse_or_make_mesher(std::move(mesher_), *scene_.ground, mesh_settings());
+        is_settled_ = is_settled_ && mesher_.get() == before;
+    }
+
     const Scene& scene_;
     const scene::Settings& settings_;
-    scene::GroundSettings control_; ///< by which the detail of the ground goes on
+    scene::GroundSettings control_; ///< The settings whose detail control the mesher has.
     std::unique_ptr<landscape::GroundMesher> mesher_;
-    bool is_settled_ = false; ///< the detail of the ground was set for a camera
-    bool is_placed_ = false;  ///< the aircraft are where the next plan shows them
+    bool is_settled_ = false; ///< The detail of the ground has been set for a camera.
+    bool is_placed_ = false;  ///< The aircraft have been placed for the next plan.
     scene::FramePlan plan_;
     std::optional<Atmosphere> atmosphere_;
     Fleet fleet_;

@@ -12,19 +12,19 @@
 
 namespace octant::visuals::planning {
 
-/// A frame that is planned.
+/// The plan of a frame.
 struct PlannedFrame {
-    /// The planner's, which stays until it plans again.
+    /// Owned by the planner; valid until it plans again.
     const scene::FramePlan& plan;
     PlanCounts counts;
 };
 
-/// Decides what is drawn in each frame of one view. Keeps memory that the plans point into, and the levels of detail of
-/// ground and aircraft from frame to frame. Several views of one scene are a list of planners.
+/// Makes the plan of each frame of one view. Owns the memory of the plans, and the levels of detail of ground and
+/// aircraft from frame to frame. Several views of one scene are a list of planners.
 class Planner {
 public:
-    /// The scene and the settings, of which the view is a part, must outlive the planner. Both may become others: the
-    /// function below that fits must be called then. `mesher`: of the scene's ground; null = one by these settings.
+    /// The scene and the settings must outlive the planner. After a change of either apply_settings() or set_sun() must
+    /// be called. `mesher`: of the scene's ground; null = a new one by these settings.
     Planner(
         const Scene& scene, const scene::Settings& settings, std::unique_ptr<landscape::GroundMesher> mesher = nullptr);
     Planner(const Planner&) = delete;
@@ -33,36 +33,35 @@ public:
     Planner& operator=(Planner&&) noexcept;
     ~Planner();
 
-    /// Goes on where the settings or the ground of the scene have become others. The last plan is gone. The detail of
-    /// the ground goes on where both it and its control are the same, else it begins anew.
+    /// Takes over changed settings or a changed ground of the scene. The last plan becomes invalid. The detail of the
+    /// ground continues if the ground and its control are the same; else it starts again.
     void apply_settings();
 
-    /// Goes on where only the sun of the settings and the colours of the scene's ground have become others. Nothing may
-    /// be prepared then.
+    /// Takes over a change of only the sun in the settings and the colours of the scene's ground. No mesh may be in
+    /// work (wait()).
     void set_sun();
 
-    /// Sets the detail of the ground for a camera where it begins anew, as it does in a new planner. The next plan does
-    /// so where nobody has. Loading work.
+    /// Initializes the detail of the ground for a camera where it starts again, as in a new planner. Otherwise the next
+    /// plan does it. Loading work.
     void settle_detail(const scene::Camera& camera);
 
-    /// Begins the work on the ground of the next plan() beside the caller, for the camera and the triangle target that
-    /// it will be given; the last plan stays valid. May be left out: changes no plan.
+    /// Begins to mesh the ground of the next plan() in the background, for its camera and its triangle target. The last
+    /// plan stays valid. Optional: it does not change plans.
     void begin_next_mesh(const scene::Camera& camera, std::optional<int> triangle_target = std::nullopt,
         const IdleThreadRunner& on_idle_thread = nullptr);
 
-    /// Returns when nothing is being prepared. Throws what that work threw; the plan is then made when it is asked for.
+    /// Waits for the work of begin_next_mesh(). Throws its exception, if any; the next plan() then makes the mesh.
     void wait();
 
     /// Does the first part of the next plan(), which must have the same request: places the aircraft and refines their
-    /// meshes. For whoever measures; may be left out.
+    /// meshes. Optional, for callers that measure its time.
     void place_aircraft(const PlanRequest& request);
 
-    /// The plan of the next frame, and what it holds. No allocation once the first frames have been planned.
+    /// The plan of the next frame, and its counts. Allocates nothing after the first frames.
     PlannedFrame plan(const PlanRequest& request);
 
-    /// Goes on as if plan() had been called, for a picture that nobody sees: levels of detail, stand-ins of far
-    /// aircraft, refined meshes and smooth polygons are then what the next plan goes on from. Leaves out the ground,
-    /// whose detail goes on from plan to plan only where earlier counts control it.
+    /// Updates what the next plan() depends on, without a plan: levels of detail, far models, refined meshes and smooth
+    /// polygons. The ground is left out: its detail depends on earlier frames only where earlier counts control it.
     void advance_without_drawing(const PlanRequest& request);
 
 private:

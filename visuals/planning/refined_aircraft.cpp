@@ -1,6 +1,6 @@
 #include "visuals/planning/refined_aircraft.h"
 
-#include "visuals/scene/model_display.h"
+#include "visuals/planning/aircraft_model.h"
 
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
@@ -68,7 +68,7 @@ scene::ModelVertex RefinedAircraft::drawn(std::uint32_t slot) const {
     drawn.colour = vertex.colour;
     const std::uint32_t node = refiner_.front().node_at(slot);
     if (shows_levels_ && node != refine::none) {
-        drawn.colour = scene::level_colour(mesh.error_m(node), mesh.half_diagonal_m());
+        drawn.colour = level_colour(mesh.error_m(node), mesh.half_diagonal_m());
     }
     return drawn;
 }

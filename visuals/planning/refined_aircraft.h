@@ -17,19 +17,19 @@
 
 namespace octant::visuals::planning {
 
-/// The rule by which visuals/shading is to choose the polygons, or the triangles of a refined mesh, that are smooth.
+/// The settings of the rule by which visuals/shading chooses smooth polygons.
 shading::ShadingRuleSettings shading_rule_of(const scene::ShadingSettings& settings);
 
-/// One aircraft's mesh, kept as fine as each frame needs it. Several share a hierarchy. Keeps its memory; what stays
-/// from frame to frame is not worked out again.
+/// The progressive mesh of one aircraft, refined for each frame. Several aircraft share a hierarchy. Only parts of the
+/// mesh that have changed since the last frame are computed again.
 class RefinedAircraft {
 public:
     /// The hierarchy is in body axes.
     RefinedAircraft(std::shared_ptr<const refine::ProgressiveMesh> mesh, const refine::ViewRefinerOptions& options,
         const scene::ShadingSettings& shading);
 
-    /// One frame; nothing is done where nothing has moved. `first`: it was not seen in the frame before, so it is made
-    /// fit at once.
+    /// Refines the mesh for a frame; does nothing where nothing has moved. `first`: the aircraft was not drawn as this
+    /// mesh in the last frame; the mesh is then refined fully, without geomorphs.
     refine::RefinedFrame update(const glm::dmat4& body_to_eye_world, const FrameView& view, bool first);
 
     int triangles() const { return static_cast<int>(refiner_.front().face_count()); }
@@ -38,9 +38,9 @@ public:
     /// are in body axes.
     void shade(const glm::dvec3& eye_m, const shading::ShadingLight& light, int smooth);
 
-    /// The mesh of the last update() for drawing, shaded as shade() chose after it, before the first one all smooth.
-    /// Corners share vertices, but a flat triangle's first one is its own, with its normal and the mean of its corners'
-    /// colours. Until the next call.
+    /// The mesh of the last update(), shaded by the last shade(); all smooth before the first shade(). Corners share
+    /// vertices, but the first vertex of a flat triangle is its own and has the triangle's normal and mean colour.
+    /// Valid until the next call.
     scene::RefinedDraw draw();
 
 private:
@@ -61,7 +61,7 @@ private:
     bool front_changed_ = true;
     /// Whether anything has changed since draw().
     bool drawn_changed_ = true;
-    /// How many of vertices_ are slots of the front; those of flat triangles lie behind them.
+    /// The number of vertices_ that are slots of the front; those of flat triangles follow.
     std::size_t slot_count_ = 0;
     std::vector<scene::ModelVertex> vertices_;
     /// One for each slot.

@@ -4,7 +4,7 @@
 #include "visuals/overlay/instrument_panel.h"
 #include "visuals/planning/aircraft_model.h"
 #include "visuals/planning/drawn_path.h"
-#include "visuals/scene/ground_texture.h"
+#include "visuals/scene/frame_plan.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -15,29 +15,29 @@
 
 namespace octant::visuals::planning {
 
-/// A simpler model that replaces a model far away, where nobody sees the difference. Both have painting orders.
+/// A simpler model that replaces a model where the difference is too small to see. Both have painting orders.
 struct FarModel {
     /// Index into Scene::models.
     std::uint32_t model = 0;
     /// Index into Scene::models, of one without levels of detail.
     std::uint32_t far_model = 0;
-    /// No point of one model is farther than this from the other.
+    /// The largest distance from a point of one model to the other.
     double error_m = 0.0;
 };
 
-/// Everything that is loaded once and looked at in every frame, by one view or by several. What is large is shared and
-/// never changes: a copy costs little.
+/// Everything that is loaded once and read in every frame, by one view or several. Large members are shared and
+/// immutable: a copy is cheap.
 struct Scene {
     std::shared_ptr<const landscape::Ground> ground;
-    /// Null = the ground shows its vertices' colours. Plans need no texels: they may be gone once a renderer has them.
+    /// Null = the ground shows its vertices' colours. Only a renderer needs the texels; they may be freed after it has
+    /// loaded them.
     std::shared_ptr<const scene::GroundTexture> ground_texture;
-    /// Each once, however many aircraft fly it.
+    /// Each model once.
     std::vector<std::shared_ptr<const AircraftModel>> models;
-    /// The model of each aircraft.
+    /// For each aircraft the index of its model.
     std::vector<std::uint32_t> aircraft;
-    /// What stands in for some of the models from afar.
     std::vector<FarModel> far_models;
-    /// The model of what the first pilot sees around the eye.
+    /// The index of the model of the cockpit around the first pilot's eye.
     std::optional<std::uint32_t> cockpit;
     /// The working dials of that cockpit.
     overlay::InstrumentLayout dials;

@@ -1,20 +1,19 @@
 #include "visuals/planning/scene_order.h"
 
+#include "visuals/bsp/component_search.h"
+
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <numeric>
 #include <utility>
 #include <vector>
 
 namespace octant::visuals::planning {
-
-// Groups are the strongly connected components of "waits for": R. Tarjan, Depth-First Search and Linear Graph
-// Algorithms, SIAM Journal on Computing 1(2), 1972, section 4. Deviations: a path kept in memory stands in for the
-// recursion.
 
 class SceneOrder::Search {
 public:
@@ -65,19 +64,7 @@ private:
         std::uint32_t index = 0;
     };
 
-    /// Where the search for rings has come with a body of a window.
-    struct ComponentVisit {
-        /// In order of first visits, from 1; 0 = not yet seen.
-        std::uint32_t number = 0;
-        /// The least number known to be reached from here.
-        std::uint32_t least = 0;
-        /// A place in occluders_.
-        std::uint32_t next = 0;
-        std::uint32_t end = 0;
-        bool is_in_group = false;
-    };
-
-    /// False when the spheres around two boxes are seen apart, with nothing said about the boxes.
+    /// False only if the spheres around two boxes do not overlap in the picture.
     static bool may_overlap_on_screen(const Body& a, const Body& b) {
         return a.around_eye || b.around_eye ||
                glm::dot(a.towards, b.towards) >= a.cosine * b.cosine - a.sine * b.sine - 1e-9;
@@ -104,8 +91,8 @@ private:
         });
     }
 
-    /// Sweeps along x for bodies whose spheres meet, and notes the windows of the list in which a body stands before
-    /// one that it hides.
+    /// Sweeps along x for bodies whose spheres intersect. A window is a range of bodies_ from a body to one that it
+    /// hides although that comes later.
     void find_windows() {
         windows_.clear();
         by_x_.resize(bodies_.size());
@@ -130,74 +117,34 @@ private:
         std::ranges::sort(windows_);
     }
 
-    /// Adds the groups of bodies first .. last, those of great power first where that leaves a choice.
+    /// Adds the groups of bodies first .. last: the strongly connected components of the relation "is hidden by", found
+    /// by descending power where there is a choice.
     void arrange_window(std::uint32_t first, std::uint32_t last) {
         const std::uint32_t count = last - first + 1;
-        find_occluders(first, count);
-        visited_ = 0;
-        for (std::uint32_t body = 0; body < count; ++body) {
-            if (visits_[body].number == 0) { visit_component(first, body); }
-        }
+        find_occluded(first, count);
+        window_.resize(count);
+        std::iota(window_.begin(), window_.end(), 0U);
+        components_.search(
+            count, window_, [&](std::uint32_t body, std::size_t word) { return occluded_[body * words_ + word]; },
+            [&](std::span<const std::uint32_t> component) { add_overlap_group(component, first); });
     }
 
-    void find_occluders(std::uint32_t first, std::uint32_t count) {
-        occluders_.clear();
+    void find_occluded(std::uint32_t first, std::uint32_t count) {
+        words_ = (count + 63) / 64;
+        occluded_.assign(count * words_, 0);
+        const auto add = [&](std::uint32_t body, std::uint32_t occluded) {
+            occluded_[body * words_ + occluded / 64] |= std::uint64_t{1} << occluded % 64;
+        };
         for (std::uint32_t a = 0; a < count; ++a) {
             const Body& earlier = bodies_[first + a];
             for (std::uint32_t b = a + 1; b < count; ++b) {
                 const Body& later = bodies_[first + b];
                 if (!may_overlap_on_screen(earlier, later)) { continue; }
                 const OcclusionPair pair = occlusion_pair(earlier.box, later.box);
-                if (pair.a_occludes_b) { occluders_.emplace_back(a, b); }
-                if (pair.b_occludes_a) { occluders_.emplace_back(b, a); }
+                if (pair.a_occludes_b) { add(a, b); }
+                if (pair.b_occludes_a) { add(b, a); }
             }
         }
-        std::ranges::sort(occluders_);
-        visits_.assign(count, {});
-        for (std::uint32_t i = 0; i < occluders_.size(); ++i) {
-            ComponentVisit& visit = visits_[occluders_[i].first];
-            visit.next = visit.end == 0 ? i : visit.next;
-            visit.end = i + 1;
-        }
-    }
-
-    /// Walks along what each body waits for. A body from which no lesser number is reached than its own closes a group
-    /// with all that are open since.
-    void visit_component(std::uint32_t first, std::uint32_t body) {
-        path_.clear();
-        open_.clear();
-        begin_visit(body);
-        while (!path_.empty()) {
-            const std::uint32_t at = path_.back();
-            ComponentVisit& visit = visits_[at];
-            if (visit.next < visit.end) {
-                const std::uint32_t other = occluders_[visit.next++].second;
-                if (visits_[other].number == 0) {
-                    begin_visit(other);
-                } else if (!visits_[other].is_in_group) {
-                    visit.least = std::min(visit.least, visits_[other].number);
-                }
-                continue;
-            }
-            path_.pop_back();
-            if (!path_.empty()) {
-                ComponentVisit& back = visits_[path_.back()];
-                back.least = std::min(back.least, visit.least);
-            }
-            if (visit.least == visit.number) {
-                std::size_t first_open = open_.size();
-                do { visits_[open_[--first_open]].is_in_group = true; } while (open_[first_open] != at);
-                add_overlap_group(std::span(open_).subspan(first_open), first);
-                open_.resize(first_open);
-            }
-        }
-    }
-
-    void begin_visit(std::uint32_t body) {
-        visits_[body].number = ++visited_;
-        visits_[body].least = visited_;
-        path_.push_back(body);
-        open_.push_back(body);
     }
 
     /// `bodies` count from body `first`.
@@ -224,14 +171,12 @@ private:
     std::vector<std::uint32_t> by_x_;
     /// The first and the last body of each.
     std::vector<std::pair<std::uint32_t, std::uint32_t>> windows_;
-    /// A body, and one that it waits for.
-    std::vector<std::pair<std::uint32_t, std::uint32_t>> occluders_;
-    std::vector<ComponentVisit> visits_;
-    /// Bodies of which each waits for the next.
-    std::vector<std::uint32_t> path_;
-    /// Bodies that were seen and are not yet in a group, by number.
-    std::vector<std::uint32_t> open_;
-    std::uint32_t visited_ = 0;
+    /// Of a window, counted from its first body: for each body a row of words_ words with the bits of those it can
+    /// hide.
+    std::vector<std::uint64_t> occluded_;
+    std::size_t words_ = 0;
+    std::vector<std::uint32_t> window_; ///< 0, 1, ...
+    bsp::ComponentSearch components_;
     std::vector<OverlapGroup> overlap_groups_;
     std::vector<std::uint32_t> members_;
 };

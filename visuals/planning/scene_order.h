@@ -8,25 +8,24 @@
 
 namespace octant::visuals::planning {
 
-/// Aircraft that are painted as one: nearly always a single one.
+/// Boxes of aircraft that are painted as one: nearly always a single one.
 struct OverlapGroup {
-    /// The box of a single member; else it holds the boxes of all, and may meet other groups.
+    /// The box of a single member; else a box around those of all members, which may intersect other groups.
     OrientedBox box;
-    std::uint32_t first = 0;
-    /// Its members are first to first + count - 1.
+    std::uint32_t first = 0; ///< The range of SceneOrder::members().
     std::uint32_t count = 0;
 };
 
-/// Painting order of aircraft by the boxes that stand in for them. Keeps its memory.
+/// The painting order of aircraft by their bounding boxes.
 ///
-/// A box must wait for every other of which it can hide a part; two that meet wait for each other. Boxes that wait for
-/// each other, directly or in a ring, become one group, and no others do: the groups have an order.
+/// A box must be painted after every box of which it can hide a part; two that intersect must each be painted after the
+/// other. The groups are the strongly connected components of this relation, so they have an order.
 ///
 /// Nearly all of it comes from a sort. The power of the eye with respect to a sphere is
 /// |centre|^2 - radius^2. The eyes of equal power to two spheres that do not meet form a plane
-/// between them, and the sphere on the eye's side has the smaller power: by descending power, no such box comes before
-/// one that must be painted first. Only where spheres meet, a box may come before one that it hides; the window of the
-/// list from one to the other is then sorted anew by which box hides which. No ring reaches out of these windows.
+/// between them, and the sphere on the eye's side has the smaller power: sorted by descending power, boxes of such
+/// spheres are in painting order. Where spheres intersect, a box may precede one that it hides; the range of the list
+/// from one to the other is then sorted again by occlusion. No cycle extends beyond these ranges.
 class SceneOrder {
 public:
     SceneOrder();
@@ -36,7 +35,7 @@ public:
     SceneOrder& operator=(SceneOrder&&) = delete;
     ~SceneOrder();
 
-    /// Boxes with the eye at the origin.
+    /// Sets the boxes, eye at the origin, and orders them.
     void arrange(std::span<const OrientedBox> boxes);
 
     /// Farthest first: no member of a group hides any part of a member of a later one from the eye.

@@ -24,7 +24,7 @@ namespace octant::visuals::planning {
 
 namespace {
 
-/// Plane through the eye and an edge, `inside` in front of it; zero for an edge seen end-on.
+/// The unit normal of the plane through the eye and an edge, with `inside_m` in front; zero for an edge seen end-on.
 glm::dvec3 edge_normal(const glm::dvec3& from_m, const glm::dvec3& to_m, const glm::dvec3& inside_m) {
     const glm::dvec3 across = glm::cross(from_m, to_m);
     const double size = glm::length(across);
@@ -34,15 +34,15 @@ glm::dvec3 edge_normal(const glm::dvec3& from_m, const glm::dvec3& to_m, const g
 
 } // namespace
 
-/// Appends to the painting steps of a plan.
+/// Appends painting steps to a plan. Functions that add a list or a range do nothing if it is empty.
 class StepWriter {
 public:
     explicit StepWriter(scene::FramePlan& plan) : plan_(plan) {}
 
-    /// How far a plan has been written.
+    /// A state of the plan to which roll_back() returns.
     struct Checkpoint {
         std::size_t steps = 0;
-        std::size_t last_count = 0; ///< of the last step, to which more may be added
+        std::size_t last_count = 0; ///< PaintStep::count of the last step, to which more may be added.
         std::size_t aircraft = 0;
         std::size_t clips = 0;
         std::size_t repaint_indices = 0;
@@ -53,7 +53,7 @@ public:
             plan_.clips.size(), plan_.repaint_indices.size()};
     }
 
-    /// Takes back the aircraft, the ground and the clips that were added since.
+    /// Removes the aircraft, the ground and the clips that were added since.
     void roll_back(const Checkpoint& checkpoint) {
         plan_.steps.resize(checkpoint.steps);
         if (checkpoint.steps > 0) { plan_.steps.back().count = static_cast<std::uint32_t>(checkpoint.last_count); }
@@ -62,51 +62,51 @@ public:
         plan_.repaint_indices.resize(checkpoint.repaint_indices);
     }
 
-    /// Depth becomes infinitely far there: what is drawn by depth from here on hides only itself.
+    /// Clears the depth in a box: draws by depth from here on hide each other only.
     void clear_depth(const scene::PixelBox& box) {
         const auto place = static_cast<std::uint32_t>(plan_.depth_boxes.size());
         plan_.depth_boxes.push_back(box);
         plan_.steps.push_back({scene::PaintStep::Content::ClearDepth, place, 1});
     }
 
-    /// The plan's sky; nothing where it is empty.
+    /// Adds the plan's sky.
     void add_sky(scene::DepthUse depth = scene::DepthUse::None) {
         add_range(scene::PaintStep::Content::Sky, 0, plan_.sky.indices.size(), depth);
     }
 
-    /// The plan's ground in its order; nothing where it is empty.
+    /// Adds the plan's ground in its order.
     void add_ground() {
         add_range(scene::PaintStep::Content::Ground, 0, plan_.ground.indices.size(), scene::DepthUse::None);
     }
 
-    /// The plan's ground by depth, of which the last `edge_on_indices` indices belong to triangles that face away but
-    /// for rounding: they only close holes along edges, elsewhere their depths mean nothing.
+    /// Adds the plan's ground by depth. The last `edge_on_indices` indices are of triangles that face the eye by
+    /// rounding only: they close holes along edges, and their depths are meaningless elsewhere.
     void add_ground_by_depth(std::size_t edge_on_indices) {
         const std::size_t facing = plan_.ground.indices.size() - edge_on_indices;
         add_range(scene::PaintStep::Content::Ground, 0, facing, scene::DepthUse::Nearest);
         add_range(scene::PaintStep::Content::Ground, facing, edge_on_indices, scene::DepthUse::EdgeOn);
     }
 
-    /// All shadows, where ground has been drawn by depth.
+    /// Adds all pieces on ground that was drawn by depth.
     void add_shadows_by_depth(const GroundFrame& ground) {
         const std::size_t first = plan_.repaint_indices.size();
-        const auto pieces = ground.shadow_indices;
+        const auto pieces = ground.piece_indices;
         plan_.repaint_indices.insert(plan_.repaint_indices.end(), pieces.begin(), pieces.end());
         add_range(scene::PaintStep::Content::GroundRepaint, first, pieces.size(), scene::DepthUse::OnGround);
     }
 
-    /// A range of the plan's overlay, over what has been painted; nothing where it is empty.
+    /// Adds a range of the plan's overlay as transparent things.
     void add_transparent(const TransparentRange& range) {
         add_range(scene::PaintStep::Content::Transparent, range.first, range.count, scene::DepthUse::None);
     }
 
-    /// The plan's overlay from an index on; nothing where it is empty.
+    /// Adds the plan's overlay from an index on.
     void add_overlay(std::size_t first) {
         add_range(
             scene::PaintStep::Content::Overlay, first, plan_.overlay.indices.size() - first, scene::DepthUse::None);
     }
 
-    /// A whole aircraft. Consecutive ones that are drawn alike become one step.
+    /// Adds a whole aircraft. Consecutive aircraft that are drawn in the same way become one step.
     void add(const scene::AircraftDraw& draw, scene::DepthUse depth = scene::DepthUse::None) {
         const auto place = static_cast<std::uint32_t>(plan_.aircraft.size());
         plan_.aircraft.push_back(draw);
@@ -121,8 +121,8 @@ public:
         plan_.steps.push_back({scene::PaintStep::Content::Aircraft, place, 1, scene::PaintStep::no_clip, depth});
     }
 
-    /// Transparent surfaces of an aircraft, blended by depth. Opacity: as PaintStep has it.
-    void add_transparent(const scene::AircraftDraw& draw, float opacity) {
+    /// Adds the transparent surfaces of an aircraft, blended by depth. `opacity`: PaintStep::opacity.
+    void add_glass(const scene::AircraftDraw& draw, float opacity) {
         const auto place = static_cast<std::uint32_t>(plan_.aircraft.size());
         plan_.aircraft.push_back(draw);
         scene::PaintStep& step = plan_.steps.emplace_back();
@@ -133,7 +133,7 @@ public:
         step.opacity = opacity;
     }
 
-    /// A mesh that was refined for this frame, by depth.
+    /// Adds a refined mesh, by depth.
     void add(const scene::RefinedDraw& draw) {
         const auto place = static_cast<std::uint32_t>(plan_.refined.size());
         plan_.refined.push_back(draw);
@@ -141,7 +141,7 @@ public:
             {scene::PaintStep::Content::Refined, place, 1, scene::PaintStep::no_clip, scene::DepthUse::Nearest});
     }
 
-    /// Paints an aircraft's range once more where `region` is seen: a part of one of its polygons.
+    /// Paints a polygon of an aircraft again inside `region`, a part of it.
     void add_within(const scene::AircraftDraw& draw, const ViewPolygon& region) {
         const auto place = static_cast<std::uint32_t>(plan_.aircraft.size());
         plan_.aircraft.push_back(draw);
@@ -150,13 +150,13 @@ public:
         });
     }
 
-    /// Paints triangles once more where they lie before a box, with their shadows, as far as they are seen in `cone`:
-    /// of the box or of one inside it. They are in painting order; those that meet the box are cut to the outside of
-    /// its sides. The eye is outside the box.
+    /// Paints triangles, with their pieces, again in front of a box and inside `cone`, which is that of the box or of
+    /// one inside it. `triangles` are in painting order; those that intersect the box are clipped to the outside of its
+    /// sides. The eye must be outside the box.
     void add_in_front(const GroundFrame& ground, std::span<const GroundInFrontTriangle> triangles,
         const OrientedBox& box, const ViewCone& cone) {
         std::uint32_t cone_clip = scene::PaintStep::no_clip;
-        bool continues = false; // the last step, with the cone alone
+        bool continues = false; // The last step has the cone as its only clip: more can be added to it.
         for (const GroundInFrontTriangle& near : triangles) {
             if (near.intersects) {
                 add_outside(ground, near.triangle, box, cone);
@@ -176,7 +176,7 @@ public:
         }
     }
 
-    /// Paints one triangle once more where `region`, a part of it, is seen.
+    /// Paints a triangle with its pieces again inside `region`, a part of it.
     void add_within(const GroundFrame& ground, std::uint32_t triangle, const ViewPolygon& region) {
         const auto first = static_cast<std::uint32_t>(plan_.repaint_indices.size());
         add_indices(ground, triangle);
@@ -186,7 +186,7 @@ public:
         });
     }
 
-    /// Gives depth to ground that what comes next by depth may stick in: triangles that have been painted.
+    /// Writes the depth of painted triangles that intersect the next draws by depth.
     void occlude_by_ground(const GroundFrame& ground, std::span<const std::uint32_t> triangles) {
         const auto first = static_cast<std::uint32_t>(plan_.repaint_indices.size());
         for (const std::uint32_t triangle : triangles) {
@@ -206,7 +206,7 @@ private:
         }
     }
 
-    /// Index of a new clip by planes through the eye, at most Clip::max_planes.
+    /// Returns the index of a new clip by planes through the eye, at most Clip::max_planes.
     std::uint32_t add_clip(std::span<const glm::dvec3> normals) {
         assert(normals.size() <= std::size_t{scene::Clip::max_planes});
         scene::Clip& clip = plan_.clips.emplace_back();
@@ -216,8 +216,8 @@ private:
         return static_cast<std::uint32_t>(plan_.clips.size() - 1);
     }
 
-    /// A sight line enters a box through the last of the sides that face the eye, so that a point in the cone lies
-    /// before the box if it lies outside any of them.
+    /// Paints a triangle again in front of a box. A line of sight enters the box through the last of the sides that
+    /// face the eye; therefore a point in the cone is in front of the box if it is outside any of these sides.
     void add_outside(const GroundFrame& ground, std::uint32_t triangle, const OrientedBox& box, const ViewCone& cone) {
         const auto first = static_cast<std::uint32_t>(plan_.repaint_indices.size());
         std::uint32_t count = 0;
@@ -243,16 +243,16 @@ private:
     void add_indices(const GroundFrame& ground, std::uint32_t triangle) {
         const auto own = ground.all.indices.subspan(std::size_t{3} * triangle, 3);
         plan_.repaint_indices.insert(plan_.repaint_indices.end(), own.begin(), own.end());
-        for (const ShadowPieces& shadow : shadows_on(ground, triangle)) {
-            const auto pieces = ground.shadow_indices.subspan(shadow.first, shadow.count);
+        for (const PieceRange& shadow : pieces_on(ground, triangle)) {
+            const auto pieces = ground.piece_indices.subspan(shadow.first, shadow.count);
             plan_.repaint_indices.insert(plan_.repaint_indices.end(), pieces.begin(), pieces.end());
         }
     }
 
-    /// Calls paint(clip) for each convex piece of `region` that few enough planes bound.
+    /// Calls paint(clip) for convex parts of `region`, each with at most Clip::max_planes planes.
     template <class Paint>
     void for_each_clip(const ViewPolygon& region, const Paint& paint) {
-        constexpr std::size_t most = scene::Clip::max_planes;
+        constexpr std::size_t max_planes = scene::Clip::max_planes;
         const auto cuts = static_cast<std::size_t>(
             std::ranges::count_if(region, [](const ViewVertex& corner) { return corner.cut; }));
         const auto add_edges = [&](const ViewPolygon& piece, bool all) {
@@ -265,13 +265,13 @@ private:
             }
             paint(add_clip(normals_));
         };
-        if (cuts <= most) {
+        if (cuts <= max_planes) {
             add_edges(region, false);
             return;
         }
-        // A fan of pieces with few edges each.
-        for (std::size_t from = 1; from + 1 < region.size(); from += most - 2) {
-            const std::size_t to = std::min(from + most - 2, region.size() - 1);
+        // A fan of parts with few edges each.
+        for (std::size_t from = 1; from + 1 < region.size(); from += max_planes - 2) {
+            const std::size_t to = std::min(from + max_planes - 2, region.size() - 1);
             piece_.assign(1, region[0]);
             for (std::size_t i = from; i <= to; ++i) { piece_.push_back(region[i]); }
             add_edges(piece_, true);
@@ -286,25 +286,24 @@ private:
 
 namespace {
 
-/// Share of its distance within which a corner counts as lying on another polygon's plane.
+/// A corner within this share of its distance from another polygon's plane counts as on the plane.
 constexpr double touching = 1e-9;
 
 } // namespace
 
-/// Paints aircraft that no order puts right as wholes: boxes that meet each other or the ground. It keeps its memory
-/// from frame to frame.
+/// Paints aircraft that cannot be ordered as a whole, because their boxes intersect each other or the ground.
 ///
-/// Polygon by polygon: after each polygon P everything painted before is painted once more, in its order, as far as it
-/// lies in the cone of the eye over P and before the plane of P. If the picture was right before P, it is right after:
-/// where nothing lies before P, P is seen; elsewhere what was on top lies before P (the nearest does when any does) and
-/// comes on top again. Polygons of the same aircraft are in order already and are not compared. What is painted again
-/// is cut to a convex part of itself by planes through the eye.
+/// It paints polygon by polygon. After each polygon P, the parts of all earlier polygons and triangles that are inside
+/// the eye's cone over P and in front of P's plane are painted again, in their order, clipped by planes through the
+/// eye. If the picture was right before P, it is right after: at a point with nothing in front of P, P is visible; at
+/// others the visible surface is in front of P (the nearest one is, if any is) and is painted again. Polygons of the
+/// same aircraft are in order already and are not compared.
 class PolygonRepaint {
 public:
-    /// Paints the aircraft in `box` over ground that has been painted; `intersecting` are the triangles that meet the
-    /// box, in painting order, and only what lies inside it is painted again. `rounding_rad`: how far a renderer may
-    /// move an edge. Returns how many triangles and polygons were painted again; nothing, with some of it written,
-    /// where that would be more than `max_repaints` or more than `max_comparisons` pairs would have to be compared.
+    /// Paints the aircraft in `box` over ground that has been painted. `intersecting`: the triangles that intersect the
+    /// box, in painting order; only their parts inside it are painted again. `rounding_rad`: the angle by which a
+    /// renderer may move an edge. Returns the number of triangles and polygons that were painted again; nothing, with a
+    /// part of the steps written, if that exceeds `max_repaints` or the compared pairs exceed `max_comparisons`.
     std::optional<int> paint(std::span<const PlacedAircraft* const> aircraft, const OrientedBox& box,
         const GroundFrame& ground, std::span<const std::uint32_t> intersecting, double rounding_rad,
         StepWriter& steps) {
@@ -325,21 +324,21 @@ public:
     }
 
 private:
-    /// More take longer than a frame has: some hundred are usual where two aircraft meet.
+    /// More would take longer than a frame; some hundred are usual where two aircraft intersect.
     static constexpr int max_repaints = 1500;
     static constexpr std::size_t max_comparisons = 250'000;
 
     static constexpr std::uint32_t is_ground = ~std::uint32_t{0};
 
-    /// Something painted: a part of a polygon or of a triangle.
+    /// A painted part of a polygon or of a triangle.
     struct PaintedItem {
         /// Index of the aircraft, or is_ground.
         std::uint32_t owner = is_ground;
-        /// The number of the triangle; else the first index of the polygon.
+        /// The number of the triangle, or the first index of the polygon.
         std::uint32_t item = 0;
-        /// How many indices the polygon has; 0 for a triangle of the ground.
+        /// The number of indices of the polygon; 0 for a triangle of the ground.
         std::uint32_t index_count = 0;
-        /// Where the corners of its part begin in corners_.
+        /// The index in corners_ of the first corner of its part.
         std::size_t first_corner = 0;
         std::size_t corner_count = 0;
     };
@@ -373,7 +372,7 @@ private:
             place_polygon(own, polygon, polygon_);
             const Plane plane = plane_of(polygon_);
             if (plane.offset_m <= 0.0) {
-                continue; // seen from behind: not drawn
+                continue; // It faces away: not drawn.
             }
             const std::size_t before = painted_.size();
             record({owner, first, next - first, 0, 0}, polygon_);
@@ -390,7 +389,7 @@ private:
         if (next > run_first) { steps.add(draw_of(own, run_first, next - run_first)); }
     }
 
-    /// Notes the parts of what was painted before that hide part of polygon_.
+    /// Records the parts of earlier items that hide a part of polygon_.
     void find_occluding(const Plane& plane, std::uint32_t owner, std::size_t before, double rounding_rad) {
         cone_of(polygon_, rounding_rad, cone_);
         const double tolerance_m = touching * (1.0 + glm::length(middle_of(polygon_)));
@@ -430,12 +429,12 @@ private:
 
 namespace {
 
-/// A little more than two rounding steps of renderers (1/256 pixel). What is painted again is cut this much too wide
-/// where only that rounding could tell, so that no line of the covered thing shows along the cut.
+/// A little more than two rounding steps of renderers (1/256 pixel). Clips are wider by this, so that no line of the
+/// covered polygon shows along a clip.
 constexpr double paint_rounding_px = 0.01;
 
-/// The pixels that hold a box as FramePlan::world_to_view and view_to_clip show it; the whole picture where part of the
-/// box lies behind the eye.
+/// The pixels around a box in the picture of FramePlan::world_to_view and view_to_clip; the whole picture if a part of
+/// the box is behind the eye.
 scene::PixelBox pixel_box(const OrientedBox& box, const scene::FramePlan& plan, const glm::ivec2& size_px) {
     const glm::dmat4 world_to_clip = glm::dmat4(plan.view_to_clip) * glm::dmat4(plan.world_to_view);
     const glm::dvec2 size(size_px);
@@ -443,7 +442,7 @@ scene::PixelBox pixel_box(const OrientedBox& box, const scene::FramePlan& plan, 
     glm::dvec2 high(std::numeric_limits<double>::lowest());
     for (const glm::dvec3& corner_m : corners_of(box)) {
         const glm::dvec4 clip = world_to_clip * glm::dvec4(corner_m, 1.0);
-        constexpr double nearest = 1e-6; // share of the box's size that must lie in front of the eye
+        constexpr double nearest = 1e-6; // The smallest distance in front of the eye, as a share of the box's size.
         if (clip.w <= nearest * radius_m(box)) { return {glm::ivec2(0), size_px}; }
         const glm::dvec2 at = glm::dvec2(clip.x, -clip.y) / clip.w;
         low = glm::min(low, at);
@@ -491,10 +490,10 @@ private:
         std::ranges::sort(near_to_far_, [&](std::uint32_t a, std::uint32_t b) { return is_nearer(hulls_, a, b); });
         steps_.clear_depth({glm::ivec2(0), frame_->view.size_px});
         if (const PlacedAircraft* cockpit = frame_->fleet.cockpit()) { paint(*cockpit, scene::DepthUse::Nearest); }
-        // What is refined comes apart, so that all others become one step.
+        // Refined meshes come last, so that all other aircraft become one step.
         for (const bool refined : {false, true}) {
             for (const std::uint32_t i : near_to_far_) {
-                if (is_refined(placed[i]) == refined && !placed[i].is_hidden) {
+                if (is_refined(placed[i]) == refined && !placed[i].is_absent) {
                     paint(placed[i], scene::DepthUse::Nearest);
                 }
             }
@@ -506,7 +505,7 @@ private:
         steps_.add_sky(scene::DepthUse::InfinitelyFar);
         for (auto i = near_to_far_.rbegin(); i != near_to_far_.rend(); ++i) {
             for (const Transparent& one : transparents_of(*i)) {
-                if (one.place == Transparent::Place::Glass && !placed[*i].is_hidden) { paint_transparent(one); }
+                if (one.place == Transparent::Place::Glass && !placed[*i].is_absent) { paint_transparent(one); }
             }
         }
     }
@@ -518,7 +517,7 @@ private:
         boxes_.insert(boxes_.end(), apart.begin(), apart.end());
         order_.arrange(boxes_);
         steps_.add_sky();
-        // The clouds lie above all ground.
+        // The clouds are above all ground.
         const bool from_above = is_above_clouds(frame_->view.camera.eye_m.z);
         if (from_above) { steps_.add_ground(); }
         if (frame_->transparents.cloud_height_m()) {
@@ -537,7 +536,7 @@ private:
         return clouds_m && height_m > *clouds_m;
     }
 
-    /// Paints the groups that lie beyond the clouds, or those that do not.
+    /// Paints the groups beyond the clouds, or all others.
     void paint_groups(bool beyond_clouds) {
         const double eye_m = frame_->view.camera.eye_m.z;
         for (const OverlapGroup& group : order_.overlap_groups()) {
@@ -546,7 +545,7 @@ private:
         }
     }
 
-    /// Paints a group and again what lies before it; nothing again where it is out of view.
+    /// Paints a group, and paints the ground in front of it again, if the group is in view.
     void paint_group(const OverlapGroup& group) {
         collect(group);
         if (members_.empty() && group_transparents_.empty()) { return; }
@@ -557,22 +556,22 @@ private:
         in_front_.find(group.box, frame_->mesher, frame_->ground.all, frame_->view.camera.eye_m);
         paint_with_transparents(group);
         if (in_front_.found().empty() || contains_eye(group.box)) { return; }
-        // Not in the cone of a group's box: between the members a farther group may be seen before the ground. What was
-        // painted earlier and is seen in a member's cone lies behind the member.
+        // The cones of the members, not that of the group's box: between members a farther group may be visible in
+        // front of this ground. In a member's cone everything that was painted earlier is behind the member.
         for (const std::uint32_t member : order_.members(group)) {
             steps_.add_in_front(frame_->ground, in_front_.found(), group.box, cone_of(boxes_[member]));
             counts_->cuts += static_cast<int>(in_front_.found().size());
         }
     }
 
-    /// Notes the aircraft of a group that are there, and the transparent things of the group.
+    /// Collects the aircraft of a group that are present, and the transparent things of the group.
     void collect(const OverlapGroup& group) {
         members_.clear();
         group_transparents_.clear();
         for (const std::uint32_t member : order_.members(group)) {
             if (member < hulls_.size()) {
                 const PlacedAircraft& aircraft = frame_->fleet.placed()[member];
-                if (aircraft.is_hidden) { continue; }
+                if (aircraft.is_absent) { continue; }
                 members_.push_back(&aircraft);
             }
             const auto own = transparents_of(member);
@@ -608,7 +607,8 @@ private:
         for (; next != group_transparents_.end(); ++next) { paint_transparent(*next); }
     }
 
-    /// Polygons as their order says, or cut where there is none; by depth where a mesh is among them.
+    /// Paints the aircraft of a group: one alone in the order of its polygons, several polygon by polygon, and groups
+    /// with a mesh by depth.
     void paint_members(const OverlapGroup& group) {
         const bool has_mesh = std::ranges::any_of(members_, [](const PlacedAircraft* one) { return is_mesh(*one); });
         const bool alone = in_front_.intersecting().empty() && members_.size() == 1;
@@ -622,7 +622,8 @@ private:
         }
     }
 
-    /// Polygons of aircraft that meet each other or the ground: cut, or by depth where the cuts would take too long.
+    /// Paints aircraft that intersect each other or the ground: polygon by polygon, or by depth where that takes too
+    /// long.
     void paint_intersecting(const OverlapGroup& group) {
         const StepWriter::Checkpoint before = steps_.checkpoint();
         const double rounding_rad = paint_rounding_px * frame_->view.pixel_rad;
@@ -637,14 +638,14 @@ private:
         paint_members_by_depth(group);
     }
 
-    /// By a depth buffer that holds nothing else but the ground that meets them.
+    /// Paints a group by depth, with no other depth in the buffer than that of the ground that intersects it.
     void paint_members_by_depth(const OverlapGroup& group) {
         steps_.clear_depth(pixel_box(group.box, plan_, frame_->view.size_px));
         if (!in_front_.intersecting().empty()) { steps_.occlude_by_ground(frame_->ground, in_front_.intersecting()); }
         for (const PlacedAircraft* member : members_) { paint(*member, scene::DepthUse::Nearest); }
     }
 
-    /// Paints a whole aircraft. What was refined for this frame is always drawn by depth.
+    /// Paints a whole aircraft. Refined meshes are always drawn by depth.
     void paint(const PlacedAircraft& aircraft, scene::DepthUse depth) {
         if (!is_refined(aircraft)) {
             steps_.add(draw_of(aircraft), depth);
@@ -671,7 +672,7 @@ private:
         const scene::IndexRange& glass = aircraft.model->transparent;
         scene::AircraftDraw draw = draw_of(aircraft, glass.first_index, glass.index_count);
         draw.first_smooth = frame_->smooth.turning_word_index();
-        steps_.add_transparent(draw, aircraft.model->opacity);
+        steps_.add_glass(draw, aircraft.model->opacity);
     }
 
     scene::FramePlan& plan_;
@@ -681,9 +682,9 @@ private:
     PolygonRepaint repaint_;
     const FrameScene* frame_ = nullptr;
     PlanCounts* counts_ = nullptr;
-    std::span<const OrientedBox> hulls_; ///< of the aircraft
-    std::vector<OrientedBox> boxes_;     ///< all that have a place: the aircraft's, then those of transparent things
-    /// Of the group that is painted.
+    std::span<const OrientedBox> hulls_; ///< The boxes of the aircraft.
+    std::vector<OrientedBox> boxes_;     ///< hulls_, then Transparents::boxes().
+    /// The present aircraft of the current group.
     std::vector<const PlacedAircraft*> members_;
     std::vector<Transparent> group_transparents_;
     std::vector<std::uint32_t> near_to_far_;

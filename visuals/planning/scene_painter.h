@@ -13,28 +13,28 @@
 
 namespace octant::visuals::planning {
 
-/// All that is in a frame, apart from the order in which it is painted.
+/// The contents of a frame, without their painting order. All members must be of the same frame.
 struct FrameScene {
     const FrameView& view;
     const Fleet& fleet;
     const SmoothChoice& smooth;
     const Transparents& transparents;
     const GroundFrame& ground;
-    /// The mesher of `ground`, which finds its triangles again.
+    /// The mesher that made `ground`.
     const landscape::GroundMesher& mesher;
 };
 
-/// Writes the painting steps of a plan: in which order, and how, what is in a frame is drawn. It also chooses which
-/// triangles of the ground the plan draws. Keeps its memory.
+/// Writes the painting steps of a plan: the order of the contents of a frame and the way in which each is drawn. It
+/// also chooses the triangles of the ground that the plan draws.
 ///
 /// In painting order (HiddenSurface::Octant, BackFace): sky, ground with its shadows in place, then the aircraft from
 /// far to near. Clouds are painted after everything beyond them and before everything on the eye's side: seen from
-/// below before all ground, seen from above after it. After each group of aircraft the ground that lies before it is
-/// painted again, cut to where the group is seen. Meshes ask for depth, within their group, and so do aircraft that
-/// meet in too many places.
+/// below before all ground, seen from above after it. After each group of aircraft the ground in front of it is painted
+/// again, cut to the group's outline. Meshes use the depth buffer within their group, and so do aircraft that intersect
+/// in too many places.
 ///
-/// By depth (HiddenSurface::DepthBuffer): from near to far, so that what is hidden is not coloured first: aircraft,
-/// ground, shadows, sky. Where aircraft and ground are equally near the aircraft is seen.
+/// By depth (HiddenSurface::DepthBuffer): aircraft, ground, shadows, sky; from near to far, so that hidden pixels are
+/// not coloured first. Where aircraft and ground are equally near, the aircraft is visible.
 class ScenePainter {
 public:
     /// The plan must outlive it; its lists of steps, clips and draws are empty before each frame.
@@ -45,7 +45,7 @@ public:
     ScenePainter& operator=(ScenePainter&&) = delete;
     ~ScenePainter();
 
-    /// Adds what was painted again, and the groups of several aircraft, to the counts.
+    /// Writes the steps of a frame. Sets PlanCounts::cuts, overlap_groups and unordered.
     void paint(const FrameScene& frame, scene::HiddenSurface hidden_surface, PlanCounts& counts);
 
 private:

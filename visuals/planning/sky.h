@@ -3,7 +3,10 @@
 #include "models/colour_vertex.h"
 #include "visuals/nature/backdrop.h"
 #include "visuals/nature/daylight.h"
+#include "visuals/planning/frame_view.h"
+#include "visuals/planning/scene.h"
 #include "visuals/scene/frame_plan.h"
+#include "visuals/scene/settings.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -11,14 +14,14 @@
 
 namespace octant::visuals::planning {
 
-/// A colour at a place (world axes with the eye subtracted) as it is seen through the haze.
+/// `own` mixed with the haze between the eye and a place (world axes with the eye subtracted).
 glm::vec3 through_haze(const scene::Haze& haze, const glm::dvec3& position_m, const glm::vec3& own);
 
-/// What the sky shows below the horizon, where the map has ended: an endless plain.
+/// The endless plain that surrounds the map. The sky shows it below the horizon.
 struct SurroundingPlain {
-    /// Zero, less or not finite: there is no plain, only haze.
+    /// The depth of the plain below the eye. Not above zero, or not finite: there is only haze.
     double height_below_eye_m = 0.0;
-    /// The level distance from the eye to the nearest edge of the map.
+    /// The horizontal distance from the eye to the nearest edge of the map.
     double map_edge_m = 0.0;
     /// The mean colour of the ground, display values 0..1.
     glm::vec3 colour{0.4F};
@@ -26,11 +29,11 @@ struct SurroundingPlain {
     double earth_radius_m = 0.0;
 };
 
-/// A dome of triangles around the eye in the colours of a daylight, with the sun and its glare; the plain below it as
-/// far down as the map does not cover it. What is below the horizon is made anew each frame in the same memory.
+/// A dome of triangles around the eye in the colours of a daylight, with the sun and its glare, and below the horizon
+/// the surrounding plain where the map does not cover it. The dome is made once, the rest in each frame.
 class Sky {
 public:
-    /// `land`: what lies around the map; may be empty.
+    /// `land`: the relief around the map; may be empty.
     explicit Sky(const nature::Daylight& day, nature::Backdrop land = {});
 
     /// The triangles, in painting order, stay valid until the next call. The land around the map is left out from below
@@ -46,7 +49,7 @@ private:
     /// The azimuth at which each ring of the dome begins: the sun's.
     double first_azimuth_rad_;
     nature::Backdrop land_;
-    /// The land reaches so far from the world's origin along both axes.
+    /// Half the extent of the land around the world's origin along both axes.
     glm::dvec2 land_half_m_{0.0};
     /// The vertices of dome and sun, then those of the land.
     std::vector<models::ColourVertex> vertices_;
@@ -54,6 +57,31 @@ private:
     /// How many vertices and indices dome and sun have.
     std::size_t sky_vertices_ = 0;
     std::size_t sky_indices_ = 0;
+};
+
+/// The light, the haze and the sky of one view.
+class Atmosphere {
+public:
+    /// Under the sun of the settings. The scene and the settings must outlive it.
+    Atmosphere(const Scene& scene, const scene::AirSettings& settings);
+
+    const nature::Daylight& daylight() const { return daylight_; }
+
+    /// The direction to the sun: a unit vector, world axes.
+    const glm::dvec3& to_sun() const { return to_sun_; }
+
+    /// Writes light, haze and sky of a frame into its plan; valid until the next frame.
+    void write(const FrameView& view, scene::FramePlan& plan);
+
+private:
+    float visibility_m(double eye_height_m) const;
+
+    const Scene& scene_;
+    const scene::AirSettings& settings_;
+    nature::Daylight daylight_;
+    glm::dvec3 to_sun_;
+    scene::Haze haze_; ///< At the ground's mean height.
+    Sky sky_;
 };
 
 } // namespace octant::visuals::planning

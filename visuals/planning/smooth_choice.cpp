@@ -20,9 +20,11 @@ constexpr std::size_t word_bits = 32;
 constexpr double nearest_radii = 1.0;
 
 std::size_t mask_words_for(const AircraftModel& model) {
-    std::size_t most = 0;
-    for (std::size_t as = 0; as <= model.levels.size(); ++as) { most = std::max(most, model.shaded_as(as).size()); }
-    return most / word_bits + 1;
+    std::size_t max_polygons = 0;
+    for (std::size_t as = 0; as <= model.levels.size(); ++as) {
+        max_polygons = std::max(max_polygons, model.shaded_as(as).size());
+    }
+    return max_polygons / word_bits + 1;
 }
 
 double distance_m(const PlacedAircraft& aircraft) { return glm::length(glm::dvec3(aircraft.parts[0][3])); }
@@ -63,7 +65,7 @@ void distribute_smooth(std::span<const SmoothCandidate> aircraft, int smooth, st
     assert(assigned.size() == aircraft.size());
     std::ranges::fill(assigned, 0);
     int left = smooth;
-    bool filled = true; // some aircraft got all that it can take: the others share what is left
+    bool filled = true; // Some aircraft has got all its polygons; the others share the rest.
     while (left > 0 && filled) {
         double weight = 0.0;
         for (std::size_t i = 0; i < aircraft.size(); ++i) {

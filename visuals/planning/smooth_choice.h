@@ -17,29 +17,29 @@
 
 namespace octant::visuals::planning {
 
-/// Polygons of one aircraft, and how much of the picture it takes.
+/// One aircraft among which smooth polygons are distributed.
 struct SmoothCandidate {
     int polygons = 0;
-    /// At least 0.
+    /// Its share of the picture, at least 0.
     double weight = 0.0;
 };
 
-/// Shares `smooth` smooth polygons out among aircraft, by weight, none getting more than it has; in all as many as
-/// asked for, or all. `assigned`: one an aircraft.
+/// Distributes `smooth` smooth polygons among aircraft in proportion to their weights, to none more than it has. The
+/// numbers are written to `assigned`; their sum is `smooth`, or all polygons if these are fewer.
 void distribute_smooth(std::span<const SmoothCandidate> aircraft, int smooth, std::span<int> assigned);
 
-/// Chooses in each frame which polygons of which aircraft are lit smoothly, triangles of meshes that are refined
-/// included. Keeps the choice, so that shading does not flicker, and its memory.
+/// Chooses in each frame which polygons of which aircraft, and which triangles of refined meshes, are smooth. The
+/// choice depends on that of the frame before, so that shading does not flicker.
 class SmoothChoice {
 public:
-    /// Gives each aircraft its place in FramePlan::smooth. `follows_clock`: the share of smooth polygons may be another
-    /// one in each frame. Loading work.
+    /// Sets ViewedAircraft::first_smooth. `follows_clock`: the share of smooth polygons may change in each frame.
+    /// Loading work.
     SmoothChoice(const scene::ShadingSettings& settings, bool follows_clock, std::span<PlacedAircraft> placed);
 
-    /// RefinedDraw::first_smooth of all that is refined.
+    /// RefinedDraw::first_smooth of all refined meshes.
     std::uint32_t refined_word_index() const { return static_cast<std::uint32_t>(bits_.size() - 1); }
 
-    /// AircraftDraw::first_smooth of parts that turn beside what is refined.
+    /// AircraftDraw::first_smooth of the turning parts of models with a refined mesh.
     std::uint32_t turning_word_index() const { return static_cast<std::uint32_t>(bits_.size() - 2); }
 
     /// How many polygons could be smooth, and how many are.
@@ -48,16 +48,16 @@ public:
         int smooth = 0;
     };
 
-    /// Fills in the bits of the aircraft as they are placed and shades what is refined (`refined`: one an aircraft,
-    /// some null); counts all polygons of models, painted or not, and the triangles that refined meshes have now.
-    /// `to_sun`: unit vector, world axes. `light`: share of it from everywhere and from the sun.
+    /// Writes FramePlan::smooth of the placed aircraft to `smooth` and shades refined meshes (`refined`: one for each
+    /// aircraft, null without). The count has all polygons of models, drawn or not, and the present triangles of
+    /// refined meshes. `to_sun`: unit vector, world axes. `light`: the ambient share and that of the sun.
     Count choose(std::span<const PlacedAircraft> placed, std::span<const std::unique_ptr<RefinedAircraft>> refined,
         const SmoothTarget& smooth_target, const glm::dvec3& to_sun, const glm::vec2& light,
         std::vector<std::uint32_t>& smooth);
 
 private:
-    /// Of one aircraft: its levels, then its polygons, then those of what stands in for it; empty where all polygons
-    /// are alike.
+    /// Of one aircraft: for each level, for its polygons, and for those of its far model; empty where all polygons are
+    /// smooth or all are flat.
     using Selectors = std::vector<shading::ShadingSelector>;
 
     int smooth_count_for(std::span<const PlacedAircraft> placed, const SmoothTarget& smooth_target);
@@ -65,7 +65,7 @@ private:
     void write_bits(const PlacedAircraft& aircraft, const shading::ShadingChoice& choice);
 
     scene::ShadingSettings settings_;
-    /// Whether some polygons may be smooth while others are not.
+    /// Whether some polygons may be smooth while others are flat.
     bool selects_;
     std::vector<Selectors> selectors_;
     std::vector<std::uint32_t> bits_;

@@ -33,12 +33,12 @@ using models::polygons::PolygonModel;
 namespace {
 
 constexpr float near_plane_m = 0.3F;
-/// How far beyond the view's sides triangles are cut.
+/// The clip planes at the view's sides, as a multiple of the half width and height.
 constexpr float view_margin = 1.05F;
 
-/// Distances to the planes in clip space, below zero outside.
 constexpr int planes = 5;
 
+/// The distance of a point in clip space from one of the planes, below zero outside.
 float before_plane(const glm::vec4& clip, int plane) {
     switch (plane) {
     case 0:
@@ -67,8 +67,8 @@ std::uint32_t packed(const glm::vec4& colour) {
 
 } // namespace
 
-/// Transparent triangles of a frame on their way into the picture: seen through the haze, cut at the view's edges and
-/// placed. Keeps its memory.
+/// Turns transparent triangles of a frame into triangles in pixels: mixes their colours with the haze, clips them to
+/// the view and projects them.
 class TransparentGeometry {
 public:
     /// Forgets the last frame. The haze must outlive the frame.
@@ -80,8 +80,8 @@ public:
         indices_.clear();
     }
 
-    /// Adds triangles, either way round: world axes with the eye subtracted, their alpha says how much of what is
-    /// behind they cover. Returns what is seen of them.
+    /// Adds triangles of any orientation, in world axes with the eye subtracted; alpha is their coverage of the
+    /// background. Returns the range of their visible parts.
     TransparentRange add(std::span<const models::ColourVertex> vertices, std::span<const std::uint32_t> indices) {
         TransparentRange range{indices_.size(), 0};
         vertex_cache_.clear();
@@ -113,15 +113,15 @@ public:
         return range;
     }
 
-    /// All that was added. Valid until the next call of another member.
+    /// All triangles since begin(). Valid until the next call of another member.
     scene::OverlayDraw draw() const { return {vertices_, indices_}; }
 
 private:
     struct TransparentVertex {
         glm::vec4 clip{0.0F};
-        /// Display values and alpha; below 0 until it is asked for.
+        /// Display values and alpha; red is below 0 until colour() sets it.
         glm::vec4 colour{-1.0F};
-        /// A bit for each plane that it is behind.
+        /// The planes behind which the vertex is, one bit each.
         std::uint32_t outside = 0;
     };
 
@@ -134,7 +134,7 @@ private:
         return vertex_out;
     }
 
-    /// Through the haze, unless it has been asked for before.
+    /// Sets the colour seen through the haze, unless it is set.
     void colour(const models::ColourVertex& vertex, TransparentVertex& vertex_out) const {
         if (vertex_out.colour.x < 0.0F) {
             vertex_out.colour = glm::vec4(through_haze(*haze_, glm::dvec3(vertex.position_m), rgb_of(vertex.colour)),
@@ -142,7 +142,7 @@ private:
         }
     }
 
-    /// Cuts the polygon down to the view (Sutherland and Hodgman 1974).
+    /// Clips the polygon to the view (Sutherland and Hodgman 1974).
     void cut() {
         for (int plane = 0; plane < planes; ++plane) {
             scratch_.clear();
@@ -189,11 +189,11 @@ private:
 
 namespace {
 
-/// Blades that turn faster are seen as a disc.
-constexpr double quick_turns_per_s = 3.0;
-/// The share of a disc's radius that the rest may reach through its plane.
+/// Faster rotors are drawn as discs.
+constexpr double disc_turns_per_s = 3.0;
+/// The distance by which other parts may reach through a disc's plane, as a share of its radius.
 constexpr double slack = 0.06;
-constexpr int segments = 32; ///< of a disc
+constexpr int segments = 32; ///< Of a disc.
 /// The length of a plume.
 constexpr double plume_radii = 9.0;
 /// The length of a trail of vapour.
@@ -206,7 +206,7 @@ std::uint32_t clear_colour(const glm::vec3& rgb, double alpha) {
     return (models::packed_colour(rgb) & 0x00ffffffU) | (byte << 24U);
 }
 
-/// Collects the triangles of one effect in body axes and moves them to the eye's.
+/// Collects the triangles of an effect, given in body axes, in world axes with the eye at the origin.
 struct Shape {
     const glm::dmat4& body_to_eye_world;
     std::vector<ColourVertex>& vertices;
@@ -222,14 +222,15 @@ struct Shape {
     }
 };
 
-/// Two unit vectors square to `axis` and to each other.
+/// Two unit vectors that are perpendicular to `axis` and to each other.
 std::pair<glm::dvec3, glm::dvec3> across(const glm::dvec3& axis) {
     const glm::dvec3 other = std::abs(axis.x) < 0.7 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
     const glm::dvec3 first = glm::normalize(glm::cross(axis, other));
     return {first, glm::cross(axis, first)};
 }
 
-/// A disc that is thin in the middle and at its edge, where the blades are fewest and their tips blur most.
+/// Draws a disc. Its coverage falls from the hub to the rim, as the blades cover a smaller share there, and fades out
+/// at the rim.
 void draw_disc(const glm::dvec3& centre_m, const glm::dvec3& axis, double radius_m, Shape& shape) {
     const auto [right, up] = across(axis);
     constexpr std::array rings{0.08, 0.5, 0.93, 1.0};
@@ -253,7 +254,7 @@ void draw_disc(const glm::dvec3& centre_m, const glm::dvec3& axis, double radius
     }
 }
 
-/// Three sheets through the plume's axis: seen from any side they fill it.
+/// Draws three sheets through the plume's axis, which fill it when seen from any side.
 void draw_plume(const glm::dvec3& from_m, double radius_m, const EffectStrength& strength, Shape& shape) {
     constexpr std::array along{0.0, 0.12, 0.35, 0.65, 1.0};
     constexpr std::array wide{0.85, 1.0, 0.8, 0.55, 0.25};
@@ -284,7 +285,7 @@ void draw_plume(const glm::dvec3& from_m, double radius_m, const EffectStrength&
     }
 }
 
-/// An upright sheet behind a wingtip that spreads and fades.
+/// Draws a vertical sheet behind a wingtip that widens and fades.
 void draw_vapour(const glm::dvec3& from_m, double strength, Shape& shape) {
     std::uint32_t before = 0;
     for (int i = 0; i <= vapour_steps; ++i) {
@@ -304,16 +305,16 @@ void draw_vapour(const glm::dvec3& from_m, double strength, Shape& shape) {
     }
 }
 
-/// How far the model reaches along a direction, without one of its parts.
+/// The extent of the model along a direction, without one of its parts.
 double reach_along(const PolygonModel& model, const glm::dvec3& direction, std::optional<std::uint32_t> excluded_part) {
-    double most = -std::numeric_limits<double>::infinity();
+    double max_m = -std::numeric_limits<double>::infinity();
     for (std::size_t polygon = 0; polygon < model.polygons.size(); ++polygon) {
         if (excluded_part && model.polygons[polygon].part == *excluded_part) { continue; }
         for (const std::uint32_t vertex : model.corners(polygon)) {
-            most = std::max(most, glm::dot(direction, model.vertices_m[vertex]));
+            max_m = std::max(max_m, glm::dot(direction, model.vertices_m[vertex]));
         }
     }
-    return most;
+    return max_m;
 }
 
 bool is_of_nozzle(const std::string& name) {
@@ -323,7 +324,7 @@ bool is_of_nozzle(const std::string& name) {
 } // namespace
 
 EffectStrength strength_of(const sim::AircraftKind* kind, const sim::AircraftState& state) {
-    constexpr double full_flame = 0.1; // of the reheat: its first stage is seen as well as its last
+    constexpr double full_flame = 0.1; // The reheat fraction with a full flame: its first stage looks like its last.
     EffectStrength strength;
     strength.exhaust = 1.0;
     strength.burner = glm::smoothstep(0.0, full_flame, sim::reheat_fraction(kind, state));
@@ -331,25 +332,23 @@ EffectStrength strength_of(const sim::AircraftKind* kind, const sim::AircraftSta
     return strength;
 }
 
-/// What is seen through around an aircraft: discs of quick rotors and propellers, plumes behind nozzles, vapour behind
-/// wingtips. Each lies on one side of a plane that has all the rest of the aircraft on its other side, so that it is
-/// painted after the aircraft for eyes on its own side and before it for all others. A rotor without such a plane has
-/// no disc.
+/// The transparent effects around an aircraft: discs of fast rotors and propellers, plumes behind nozzles, vapour
+/// behind wingtips. Each effect has a plane that separates it from the rest of the aircraft, so that it is painted
+/// after the aircraft for eyes on its own side and before it for all others. A rotor without such a plane has no disc.
 class AircraftEffects {
 public:
-    /// Of a model in body axes: its pivots that turn fast, its parts named as nozzles and burners, and the ends of its
-    /// span, of models with a nozzle.
+    /// Finds the effects of a model in body axes: discs at its fast pivots, plumes at its parts named as nozzles or
+    /// burners, and, if it has a plume, vapour at its wingtips.
     explicit AircraftEffects(const PolygonModel& model) {
         find_discs(model);
         find_plumes(model);
         find_vapour(model);
     }
 
-    /// The box in body axes that holds them all, at any strength.
+    /// The bounds of all effects at any strength, body axes.
     std::optional<AxisAlignedBox> bounds() const { return effects_.empty() ? std::nullopt : std::optional(extent_); }
 
-    /// Adds the effects behind the aircraft, or in front of it, to a frame. A rotor that somebody else moves, as
-    /// `articulated_parts` says, has no disc.
+    /// Adds the effects behind the aircraft, or in front of it, to a frame. Rotors in `articulated_parts` have no disc.
     TransparentRange add(const PlacedAircraft& aircraft, bool in_front, const EffectStrength& strength,
         std::span<const ArticulatedPart> articulated_parts, TransparentGeometry& geometry) {
         const glm::dmat4& body_to_eye_world = aircraft.parts[0];
@@ -392,7 +391,7 @@ private:
     void find_discs(const PolygonModel& model) {
         for (std::uint32_t number = 0; number < model.pivots.size(); ++number) {
             const Pivot& pivot = model.pivots[number];
-            if (std::abs(pivot.turns_per_s) < quick_turns_per_s) { continue; }
+            if (std::abs(pivot.turns_per_s) < disc_turns_per_s) { continue; }
             double radius_m = 0.0;
             double along_sum_m = 0.0;
             int corners = 0;
@@ -423,26 +422,26 @@ private:
         const glm::dvec3 aft(-1.0, 0.0, 0.0);
         const double rear_m = -reach_along(model, aft, std::nullopt);
         for (const double side : {-1.0, 1.0}) {
-            glm::dvec3 least(1e9);
-            glm::dvec3 most(-1e9);
+            glm::dvec3 min_m(1e9);
+            glm::dvec3 max_m(-1e9);
             for (std::size_t polygon = 0; polygon < model.polygons.size(); ++polygon) {
                 if (!is_of_nozzle(model.parts[model.polygons[polygon].part])) { continue; }
                 for (const std::uint32_t vertex : model.corners(polygon)) {
                     const glm::dvec3& at_m = model.vertices_m[vertex];
                     if (side * at_m.y >= 0.0) {
-                        least = glm::min(least, at_m);
-                        most = glm::max(most, at_m);
+                        min_m = glm::min(min_m, at_m);
+                        max_m = glm::max(max_m, at_m);
                     }
                 }
             }
-            if (least.x > most.x) { continue; }
-            const double radius_m = 0.42 * std::min(most.y - least.y, most.z - least.z);
-            const glm::dvec3 position_m(rear_m, 0.5 * (least.y + most.y), 0.5 * (least.z + most.z));
+            if (min_m.x > max_m.x) { continue; }
+            const double radius_m = 0.42 * std::min(max_m.y - min_m.y, max_m.z - min_m.z);
+            const glm::dvec3 position_m(rear_m, 0.5 * (min_m.y + max_m.y), 0.5 * (min_m.z + max_m.z));
             add_effect({Kind::Plume, position_m, aft, radius_m}, plume_radii * radius_m * aft);
         }
     }
 
-    /// Only of jets: what has a plume. Others hardly ever load their tips so.
+    /// Only aircraft with a plume, which are jets: others hardly ever reach such load factors.
     void find_vapour(const PolygonModel& model) {
         if (std::ranges::none_of(effects_, [](const Effect& one) { return one.kind == Kind::Plume; })) { return; }
         for (const double side : {-1.0, 1.0}) {
@@ -450,7 +449,7 @@ private:
             glm::dvec3 tip_m(0.0);
             double max_m = 0.0;
             for (const glm::dvec3& at_m : model.vertices_m) {
-                // Of corners as far out the rearmost.
+                // The rearmost of the outermost corners.
                 if (side * at_m.y > max_m + 1e-6 || (side * at_m.y > max_m - 1e-6 && at_m.x < tip_m.x)) {
                     max_m = std::max(max_m, side * at_m.y);
                     tip_m = at_m;
@@ -462,16 +461,16 @@ private:
 
     void add_effect(const Effect& effect, const glm::dvec3& reach_m) {
         const glm::dvec3 half_m(effect.radius_m);
-        const glm::dvec3 least = glm::min(effect.position_m, effect.position_m + reach_m) - half_m;
-        const glm::dvec3 most = glm::max(effect.position_m, effect.position_m + reach_m) + half_m;
-        extent_.min_m = effects_.empty() ? least : glm::min(extent_.min_m, least);
-        extent_.max_m = effects_.empty() ? most : glm::max(extent_.max_m, most);
+        const glm::dvec3 min_m = glm::min(effect.position_m, effect.position_m + reach_m) - half_m;
+        const glm::dvec3 max_m = glm::max(effect.position_m, effect.position_m + reach_m) + half_m;
+        extent_.min_m = effects_.empty() ? min_m : glm::min(extent_.min_m, min_m);
+        extent_.max_m = effects_.empty() ? max_m : glm::max(extent_.max_m, max_m);
         effects_.push_back(effect);
     }
 
     std::vector<Effect> effects_;
     AxisAlignedBox extent_;
-    /// The corners and triangles of one effect in the frame at hand.
+    /// The corners and triangles of one effect in this frame.
     std::vector<models::ColourVertex> vertices_;
     std::vector<std::uint32_t> indices_;
 };
@@ -481,7 +480,7 @@ private:
 namespace {
 
 constexpr std::size_t max_dashes = 80;
-/// Where that are not too many dashes.
+/// The time of a dash; longer where there would be more than max_dashes.
 constexpr double dash_s = 1.0;
 constexpr double box_margin_m = 0.2;
 constexpr double farthest_dash_m = 40000.0;
@@ -490,7 +489,7 @@ constexpr std::array<std::uint32_t, 2> leg_colours{0x001e8cffU, 0x00e6d232U};
 constexpr std::uint32_t flown_alpha = 0xd0U;
 constexpr std::uint32_t coming_alpha = 0x68U;
 
-/// The smallest box along a dash's chord that holds its corners.
+/// The smallest box along a dash's chord around its corners.
 OrientedBox box_around(std::span<const models::ColourVertex> corners, const glm::dvec3& chord) {
     OrientedBox box;
     const double length_m = glm::length(chord);
@@ -498,34 +497,34 @@ OrientedBox box_around(std::span<const models::ColourVertex> corners, const glm:
     const glm::dvec3 level(-along.y, along.x, 0.0);
     const glm::dvec3 side = glm::length(level) > 1e-6 ? glm::normalize(level) : glm::dvec3(0.0, 1.0, 0.0);
     box.axes = glm::dmat3(along, side, glm::cross(along, side));
-    glm::dvec3 least(1e300);
-    glm::dvec3 most(-1e300);
+    glm::dvec3 min_m(1e300);
+    glm::dvec3 max_m(-1e300);
     for (const models::ColourVertex& corner : corners) {
         const glm::dvec3 at = glm::transpose(box.axes) * glm::dvec3(corner.position_m);
-        least = glm::min(least, at);
-        most = glm::max(most, at);
+        min_m = glm::min(min_m, at);
+        max_m = glm::max(max_m, at);
     }
-    box.centre_m = box.axes * (0.5 * (least + most));
-    box.half_m = 0.5 * (most - least) + box_margin_m;
+    box.centre_m = box.axes * (0.5 * (min_m + max_m));
+    box.half_m = 0.5 * (max_m - min_m) + box_margin_m;
     return box;
 }
 
 } // namespace
 
-/// From where and when a ribbon is seen.
+/// The eye, and the properties of the ribbon in one frame.
 struct RibbonView {
     glm::dvec3 eye_m{0.0};
-    /// What is far sinks by this radius; 0 = the earth is flat.
+    /// The radius of the earth, by whose curvature distant points sink; 0 = flat.
     double earth_radius_m = 0.0;
-    /// What has been flown by then is stronger.
+    /// The path before this time has a stronger colour.
     double time_s = 0.0;
     double half_width_m = 3.0;
-    /// The ribbon ends so far before and behind the aircraft.
+    /// The ribbon ends at this distance before and behind the aircraft.
     double gap_m = 15.0;
 };
 
-/// A path as a ribbon along the wings, in dashes of about equal times with gaps between them, so that each has a place
-/// of its own in the painting order. Legs have two colours in turn. Keeps its memory.
+/// A path as a ribbon along the wings, in dashes of about equal times with gaps between them, so that each dash has its
+/// own place in the painting order. Legs alternate between two colours.
 class PathRibbon {
 public:
     /// The path must outlive the ribbon.
@@ -534,7 +533,7 @@ public:
         points_per_dash_ = std::max({usual, path.points.size() / max_dashes, std::size_t{2}});
     }
 
-    /// A dash of a frame, and the box that holds it; the eye is at the origin.
+    /// A dash of a frame, and the box around it, eye at the origin.
     struct Dash {
         OrientedBox box;
         TransparentRange range;
@@ -554,7 +553,7 @@ public:
     }
 
 private:
-    /// Where the aircraft is: past `point`, before the next one.
+    /// The aircraft's position on the path, between `point` and the next one.
     struct AircraftPoint {
         /// The time as a number of points.
         double fractional_point;
@@ -573,7 +572,7 @@ private:
             glm::mix(path_.points[point].position_m, path_.points[next].position_m, at - static_cast<double>(point))};
     }
 
-    /// The dash of points first .. last, without the part near the aircraft: two pieces where that is in its middle.
+    /// Adds the dash of points first .. last without the part near the aircraft; in two pieces if that is inside.
     void add_dash(std::size_t first, std::size_t last, const RibbonView& view, TransparentGeometry& geometry) {
         const AircraftPoint aircraft = aircraft_point(view.time_s);
         const auto close = [&](std::size_t point) {
@@ -640,7 +639,7 @@ struct Transparents::Parts {
     std::optional<nature::CloudLayer> clouds;
     double cloud_height_m = 0.0;
     std::optional<PathRibbon> ribbon;
-    std::vector<AircraftEffects> effects; ///< one for each of Scene::aircraft, or none at all
+    std::vector<AircraftEffects> effects; ///< One for each of Scene::aircraft; empty without effects.
     std::vector<std::optional<AxisAlignedBox>> effect_bounds;
     std::vector<Transparent> list;
     std::vector<OrientedBox> boxes;
@@ -652,7 +651,7 @@ struct Transparents::Parts {
     }
 
     void add_effects(const FrameView& view, const PlanRequest& request, const Fleet& fleet) {
-        constexpr double min_px = 6.0; // smaller aircraft have no effects
+        constexpr double min_px = 6.0; // Smaller aircraft have no effects.
         for (std::size_t i = 0; i < effects.size(); ++i) {
             const OrientedBox& hull = fleet.bounding_boxes()[i];
             const bool is_seen = radius_m(hull) > min_px * view.pixel_rad * glm::length(hull.centre_m);
@@ -666,16 +665,16 @@ struct Transparents::Parts {
         }
     }
 
-    /// Adds the dashes of the ribbon. One that meets an aircraft is left out: neither is wholly in front of the other.
+    /// Adds the dashes of the ribbon, except dashes that intersect the box of an aircraft: they have no painting order.
     void add_ribbon(const FrameView& view, double time_s, std::span<const OrientedBox> hulls) {
         const double radius = scene.model_of(0).subject.radius_m;
-        constexpr double half_width = 0.3; // of the aircraft's radius
+        constexpr double half_width = 0.3; // As a share of the aircraft's radius, as the gap.
         constexpr double gap = 1.8;
         const auto dashes = ribbon->dashes(
             {view.camera.eye_m, view.earth_radius_m, time_s, half_width * radius, gap * radius}, geometry);
         for (const PathRibbon::Dash& dash : dashes) {
-            const auto meets = [&](const OrientedBox& hull) { return occlusion_pair(hull, dash.box).intersect; };
-            if (std::ranges::any_of(hulls, meets)) { continue; }
+            const auto intersects = [&](const OrientedBox& hull) { return occlusion_pair(hull, dash.box).intersect; };
+            if (std::ranges::any_of(hulls, intersects)) { continue; }
             add(Transparent::Place::Apart, hulls.size() + boxes.size(), dash.range);
             boxes.push_back(dash.box);
         }

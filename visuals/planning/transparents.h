@@ -26,36 +26,38 @@ struct TransparentRange {
 
 /// One transparent thing of a frame and its place in the painting order.
 struct Transparent {
-    /// In painting order, within a group of aircraft that is painted as one.
+    /// The enumerators have the painting order within a group of aircraft that is painted as one.
     enum class Place : std::uint8_t {
-        Apart,     ///< has a box of its own: before the group where its middle is farther off, else last
-        Behind,    ///< an effect, painted before its aircraft
-        Glass,     ///< transparent surfaces of a refined aircraft, by depth; has no range
-        InFront,   ///< an effect, painted after its aircraft
-        CloudLayer ///< has no box: lies between what is above Transparents::cloud_height_m() and what is below
+        Apart,     ///< Has a box of its own: before the group if the centre of that box is farther away, else last.
+        Behind,    ///< An effect, painted before its aircraft.
+        Glass,     ///< Transparent surfaces of a refined aircraft, painted by depth; has no range.
+        InFront,   ///< An effect, painted after its aircraft.
+        CloudLayer ///< The layer of clouds at Transparents::cloud_height_m(); has no box.
     };
 
     Place place = Place::Apart;
-    /// The number of its aircraft; of its own box: of Transparents::boxes() after those of the aircraft.
+    /// The number of its aircraft. With a box of its own: the number of aircraft plus the index in
+    /// Transparents::boxes().
     std::uint32_t box = 0;
     TransparentRange range;
 };
 
-/// How much of an aircraft's effects is seen in a state, each 0..1.
+/// The strength of an aircraft's effects in one state, each 0..1.
 struct EffectStrength {
-    /// Hot air behind the nozzles.
+    /// Of hot air behind the nozzles.
     double exhaust = 0.0;
-    /// Afterburners: the motion needs more thrust than there is without them (sim::reheat_fraction).
+    /// Of afterburners: above 0 where the motion needs more thrust than the engines have without them
+    /// (sim::reheat_fraction).
     double burner = 0.0;
-    /// Vapour at the wingtips, under load.
+    /// Of vapour at the wingtips, which depends on the load factor.
     double vapour = 0.0;
 };
 
-/// `kind`: the row of the aircraft; null for one of which only the shape is known.
+/// `kind`: the aircraft's row in the table of kinds; null for an aircraft of unknown kind.
 EffectStrength strength_of(const sim::AircraftKind* kind, const sim::AircraftState& state);
 
-/// All that one view sees through, as one list: a layer of clouds, the first aircraft's path as a ribbon of dashes,
-/// effects around aircraft (discs of quick rotors, plumes, vapour) and glass. Keeps its memory.
+/// All transparent things of one view, as one list: a layer of clouds, the first aircraft's path as a ribbon of dashes,
+/// effects around aircraft (discs of fast rotors, plumes, vapour) and glass.
 class Transparents {
 public:
     /// The scene must outlive it. Loading work.
@@ -69,20 +71,21 @@ public:
     /// Lights the clouds by another daylight.
     void set_daylight(const nature::Daylight& day);
 
-    /// What holds the effects of each of Scene::aircraft at any strength, body axes; nothing where it has none.
+    /// The bounds of the effects of each of Scene::aircraft at any strength, body axes; nothing for one without
+    /// effects.
     std::span<const std::optional<AxisAlignedBox>> effect_bounds() const;
 
-    /// Makes the list of a frame, seen by the matrices and through the haze of its plan, which must stay until the next
-    /// frame. `fleet`: as it is placed for the same frame.
+    /// Makes the list of a frame. `fleet` must be placed for this frame. `plan` gives the matrices and the haze; it and
+    /// `fleet` must stay until the next frame.
     void make(const FrameView& view, const PlanRequest& request, const Fleet& fleet, const scene::FramePlan& plan);
 
-    /// All of the frame, by ascending box.
+    /// The transparent things of the frame, by ascending `box`.
     std::span<const Transparent> list() const;
 
-    /// The boxes of what has a place apart from aircraft; none meets an aircraft.
+    /// The boxes of things with Place::Apart; none intersects the box of an aircraft.
     std::span<const OrientedBox> boxes() const;
 
-    /// The triangles of all of them. Valid until the next frame.
+    /// The triangles of the whole list. Valid until the next frame.
     scene::OverlayDraw draw() const;
 
     /// The height of the clouds, which lie above all ground; nothing = there are none.

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "visuals/raster/vertex_stage.h"
-#include "visuals/scene/ground_texture.h"
+#include "visuals/scene/frame_plan.h"
 
 #include <array>
 #include <cstdint>

@@ -4,8 +4,8 @@
 #include "visuals/raster/lit_ground_texture.h"
 #include "visuals/raster/tile.h"
 #include "visuals/raster/triangle_binner.h"
+#include "visuals/scene/picture.h"
 #include "visuals/scene/renderer.h"
-#include "visuals/scene/window_picture.h"
 
 #include <functional>
 #include <memory>

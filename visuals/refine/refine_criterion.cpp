@@ -79,7 +79,7 @@ std::size_t refine_for_view(
 namespace {
 
 constexpr double right_angle_rad = 0.5 * std::numbers::pi;
-/// The angle over which weights change. With a step in their place, nodes would be split and merged again and again
+/// The angle over which weights change. With a step in their place, nodes would be split and collapsed again and again
 /// while the eye moves.
 constexpr double ramp_rad = 0.26;
 

@@ -1,12 +1,12 @@
 // View-dependent refinement frame by frame, with J. Kim and S. Lee's splits (2001, section 4) and H. Hoppe's criterion
 // (1997, section 4).
 //
-// A frame splits every active node whose projected error exceeds error_px, the largest error first, and merges siblings
-// whose parent would show less than merge_error_ratio of it, the smallest error first. Three things keep nodes from
-// being split and merged in turns: the gap between the two thresholds, weights that look ahead by an angle
-// (merge_angle_margin_rad), and a rest of some frames after each operation.
+// A frame splits every active node whose projected error exceeds error_px, the largest error first, and collapses
+// siblings whose parent would show less than collapse_error_ratio of it, the smallest error first. Three things keep
+// nodes from being split and collapsed in turns: the gap between the two thresholds, weights that look ahead by an
+// angle (collapse_angle_margin_rad), and a rest of some frames after each operation.
 //
-// Merging takes several frames: geomorphs first carry both vertices to the parent's position, then the edge is
+// A collapse takes several frames: geomorphs first carry both vertices to the parent's position, then the edge is
 // collapsed. If the error grows in the meantime, they turn back.
 #include "visuals/refine/view_refiner.h"
 
@@ -145,7 +145,7 @@ RefinedFrame ViewRefiner::update(const RefineView& view) {
     refiner_.repair([this](std::uint32_t node) { return needs_resting(node); });
     start_moves();
     reverse_moves();
-    merge_smallest();
+    collapse_smallest();
     RefinedFrame frame;
     frame.moving = options_.geomorphs ? moves_.move(refiner_, view) : 0;
     frame.splits = refiner_.counts().splits - before.splits;
@@ -156,21 +156,21 @@ RefinedFrame ViewRefiner::update(const RefineView& view) {
 }
 
 void ViewRefiner::refine_fully(const RefineView& view) {
-    // Repair and merging could otherwise undo each other's work for ever.
+    // Without a limit repair and collapses could undo each other's work for ever.
     constexpr int max_rounds = 100;
     const ViewRefinerOptions kept = options_;
     options_.geomorphs = false;
     options_.operations = std::numeric_limits<std::size_t>::max();
-    options_.merge_delay_frames = 0;
+    options_.rest_frames = 0;
     settled_ = false;
     for (int round = 0; round < max_rounds && !update(view).settled; ++round) {}
     options_ = kept;
 }
 
-/// Fills splits_ with the nodes to split, and merges_ with the parents whose children may be merged.
+/// Fills splits_ with the nodes to split, and collapses_ with the nodes whose children may be collapsed.
 void ViewRefiner::collect_candidates() {
     splits_.clear();
-    merges_.clear();
+    collapses_.clear();
     const ProgressiveMesh& mesh = refiner_.mesh();
     for (std::uint32_t slot = 0; slot < refiner_.vertices().size(); ++slot) {
         const std::uint32_t node = refiner_.node_at(slot);
@@ -181,7 +181,7 @@ void ViewRefiner::collect_candidates() {
             !refiner_.is_active(mesh.split_of(parent).second)) {
             continue;
         }
-        if (!keeps_split(parent)) { merges_.push_back({merged_error_px(parent), parent}); }
+        if (!keeps_split(parent)) { collapses_.push_back({collapsed_error_px(parent), parent}); }
     }
 }
 
@@ -191,20 +191,15 @@ void ViewRefiner::consider_split(std::uint32_t node) {
     const double shown_px = error_px(node);
     if (shown_px > options_.error_px) {
         splits_.push_back({shown_px, node});
-        std::ranges::push_heap(splits_, [](const Candidate& a, const Candidate& b) {
-            return a.error_px != b.error_px ? a.error_px < b.error_px : a.node < b.node;
-        });
+        std::ranges::push_heap(splits_, has_smaller_error);
     }
 }
 
 /// Splits the nodes of splits_, largest error first, and considers their children in turn.
 void ViewRefiner::split_worst() {
-    const auto less = [](const Candidate& a, const Candidate& b) {
-        return a.error_px != b.error_px ? a.error_px < b.error_px : a.node < b.node;
-    };
     std::size_t left = options_.operations;
     while (!splits_.empty() && left > 0) {
-        std::ranges::pop_heap(splits_, less);
+        std::ranges::pop_heap(splits_, has_smaller_error);
         const auto [shown_px, node] = splits_.back();
         splits_.pop_back();
         if (!refiner_.is_active(node)) {
@@ -236,7 +231,7 @@ void ViewRefiner::start_moves() {
     refiner_.clear_recent_splits();
 }
 
-/// Sends vertices back that travel to a merge which is no longer wanted or no longer possible.
+/// Sends vertices back to their own nodes where their collapse is no longer wanted or no longer possible.
 void ViewRefiner::reverse_moves() {
     turning_.clear();
     moves_.each([&](std::uint32_t slot, std::uint32_t target) {
@@ -251,51 +246,51 @@ void ViewRefiner::reverse_moves() {
     for (const std::uint32_t slot : turning_) { moves_.retarget(refiner_, slot, refiner_.node_at(slot)); }
 }
 
-/// Merges the candidates of merges_, smallest error first.
-void ViewRefiner::merge_smallest() {
-    std::ranges::sort(merges_, [](const Candidate& a, const Candidate& b) {
+/// Collapses the candidates of collapses_, the smallest error first.
+void ViewRefiner::collapse_smallest() {
+    std::ranges::sort(collapses_, [](const Candidate& a, const Candidate& b) {
         return a.error_px != b.error_px ? a.error_px < b.error_px : a.node > b.node;
     });
     std::size_t left = options_.operations;
-    for (const Candidate& candidate : merges_) {
+    for (const Candidate& candidate : collapses_) {
         const VertexSplit split = refiner_.mesh().split_of(candidate.node);
         if (!refiner_.is_active(split.first) || !refiner_.is_active(split.second)) {
             continue; // A child has been split in the meantime.
         }
-        if (left == 0 || is_merge_delayed(candidate.node)) {
+        if (left == 0 || rests_after_split(candidate.node)) {
             waiting_ = true;
-        } else if (merge(candidate.node)) {
+        } else if (move_and_collapse(candidate.node)) {
             --left;
         }
     }
 }
 
-/// Whether one of a node's children came by a split within the last merge_delay_frames.
-bool ViewRefiner::is_merge_delayed(std::uint32_t node) const {
+/// Whether one of a node's children came by a split within the last rest_frames: the node must not collapse yet.
+bool ViewRefiner::rests_after_split(std::uint32_t node) const {
     const VertexSplit split = refiner_.mesh().split_of(node);
     const std::uint32_t came =
         std::max(split_frames_[refiner_.slot(split.first)], split_frames_[refiner_.slot(split.second)]);
-    return came != 0 && frame_ - came <= static_cast<std::uint32_t>(options_.merge_delay_frames);
+    return came != 0 && frame_ - came <= static_cast<std::uint32_t>(options_.rest_frames);
 }
 
-/// Whether an active node came by a merge within the last merge_delay_frames.
-bool ViewRefiner::is_split_delayed(std::uint32_t node) const {
+/// Whether an active node came by a collapse within the last rest_frames.
+bool ViewRefiner::rests_after_collapse(std::uint32_t node) const {
     const std::uint32_t slot = refiner_.slot(node);
-    return slot < merged_.size() && merged_[slot].node == node &&
-           frame_ - merged_[slot].frame <= static_cast<std::uint32_t>(options_.merge_delay_frames);
+    return slot < collapsed_.size() && collapsed_[slot].node == node &&
+           frame_ - collapsed_[slot].frame <= static_cast<std::uint32_t>(options_.rest_frames);
 }
 
-/// Whether splitting an active node would split one that rests after its merge: itself or a forced one.
+/// Whether splitting an active node would split one that rests after its collapse: itself or a forced one.
 bool ViewRefiner::needs_resting(std::uint32_t node) {
-    if (is_split_delayed(node)) { return true; }
+    if (rests_after_collapse(node)) { return true; }
     refiner_.find_forced_splits(node, forced_);
     return std::ranges::any_of(
-        forced_, [this](std::uint32_t forced) { return refiner_.is_active(forced) && is_split_delayed(forced); });
+        forced_, [this](std::uint32_t forced) { return refiner_.is_active(forced) && rests_after_collapse(forced); });
 }
 
-/// Merges a node's children, or with geomorphs sends them to the node's position until they have arrived. Returns false
-/// when that is not possible now.
-bool ViewRefiner::merge(std::uint32_t node) {
+/// Collapses a node's children; with geomorphs moves them to the node's position first, in several frames. Returns
+/// false when the collapse is not possible now.
+bool ViewRefiner::move_and_collapse(std::uint32_t node) {
     const VertexSplit split = refiner_.mesh().split_of(node);
     const std::uint32_t first = refiner_.slot(split.first);
     const std::uint32_t second = refiner_.slot(split.second);
@@ -306,8 +301,8 @@ bool ViewRefiner::merge(std::uint32_t node) {
         moves_.forget(first);
         moves_.forget(second);
         split_frames_[first] = 0;
-        merged_.resize(split_frames_.size());
-        merged_[first] = {node, frame_};
+        collapsed_.resize(split_frames_.size());
+        collapsed_[first] = {node, frame_};
         return true;
     }
     if (!refiner_.can_collapse(node)) { return false; }

@@ -12,7 +12,7 @@ namespace octant::visuals::refine {
 
 /// How fast vertices travel.
 struct GeomorphOptions {
-    /// No vertex moves farther than this on the screen in one frame, seen from one eye.
+    /// The largest motion of a vertex on the screen in one frame, as seen from a fixed eye.
     double step_px = 0.6;
     /// A move takes at least this many frames.
     double frames = 8.0;
@@ -68,17 +68,17 @@ private:
     std::vector<std::uint32_t> places_; ///< For each slot its index in moves_, or `none`.
 };
 
-/// When nodes are split and merged, and how fast.
+/// When nodes are split and collapsed, and how fast.
 struct ViewRefinerOptions {
     double error_px = 1.0; ///< A node with a larger projected error is split.
-    /// A node with a projected error below this share of error_px is merged; below 1.
-    double merge_error_ratio = 0.75;
-    /// CriterionOptions::angle_margin_rad for merges: a node that may come into sight soon is not merged.
-    double merge_angle_margin_rad = 0.2;
-    /// A node that was split is not merged for this many frames.
-    int merge_delay_frames = 10;
-    /// A node that was merged is not split again for merge_delay_frames either, nor is one that would force it to
-    /// split, unless its error is more than this many times error_px or nothing else mends a turned face.
+    /// The children of a node with a projected error below this share of error_px collapse into it; below 1.
+    double collapse_error_ratio = 0.75;
+    /// CriterionOptions::angle_margin_rad for collapses, so that a node that may soon come into sight stays split.
+    double collapse_angle_margin_rad = 0.2;
+    /// After a split its children do not collapse for this many frames.
+    int rest_frames = 10;
+    /// After a collapse the node is not split again for rest_frames either, nor is another node whose split would force
+    /// that. Exceptions: its error is more than this many times error_px, or nothing else mends a turned face.
     double resplit_error_ratio = 3.0;
     /// At most this many splits and this many collapses are begun in one frame.
     std::size_t operations = 2000;
@@ -102,8 +102,8 @@ class ViewRefiner {
 public:
     explicit ViewRefiner(std::shared_ptr<const ProgressiveMesh> mesh, const ViewRefinerOptions& options = {});
 
-    /// Advances by one frame: splits the largest errors, mends fold-overs, merges the smallest errors and moves
-    /// vertices. While the view does not change and everything is settled, nothing is computed.
+    /// Advances by one frame: splits the largest errors, mends fold-overs, collapses the smallest errors and
+    /// moves vertices. While the view does not change and everything is settled, nothing is computed.
     RefinedFrame update(const RefineView& view);
 
     /// Makes the mesh fit a view at once, without geomorphs and with any number of operations: for the first picture
@@ -116,7 +116,7 @@ public:
 
     /// Whether the criterion alone keeps a node split in the view of the last frame.
     bool keeps_split(std::uint32_t node) const {
-        return merged_error_px(node) >= options_.merge_error_ratio * options_.error_px;
+        return collapsed_error_px(node) >= options_.collapse_error_ratio * options_.error_px;
     }
 
 private:
@@ -126,19 +126,23 @@ private:
         std::uint32_t node = none;
     };
 
+    static bool has_smaller_error(const Candidate& a, const Candidate& b) {
+        return a.error_px != b.error_px ? a.error_px < b.error_px : a.node < b.node;
+    }
+
     double error_px(std::uint32_t node) const {
         return projected_error_px(refiner_.mesh(), node, view_, options_.criterion);
     }
 
-    /// The projected error that a node would have once its children are merged into it; with merge_angle_margin_rad.
-    double merged_error_px(std::uint32_t node) const {
+    /// The projected error of a node after its children have collapsed into it, with collapse_angle_margin_rad.
+    double collapsed_error_px(std::uint32_t node) const {
         CriterionOptions criterion = options_.criterion;
-        criterion.angle_margin_rad += options_.merge_angle_margin_rad;
+        criterion.angle_margin_rad += options_.collapse_angle_margin_rad;
         return projected_error_px(refiner_.mesh(), node, view_, criterion);
     }
 
-    /// The node that was last merged in a slot, and when.
-    struct Merged {
+    /// The node of the last collapse in a slot, and its frame.
+    struct LastCollapse {
         std::uint32_t node = none;
         std::uint32_t frame = 0;
     };
@@ -148,10 +152,10 @@ private:
     void split_worst();
     void start_moves();
     void reverse_moves();
-    void merge_smallest();
-    bool merge(std::uint32_t node);
-    bool is_merge_delayed(std::uint32_t node) const;
-    bool is_split_delayed(std::uint32_t node) const;
+    void collapse_smallest();
+    bool move_and_collapse(std::uint32_t node);
+    bool rests_after_split(std::uint32_t node) const;
+    bool rests_after_collapse(std::uint32_t node) const;
     bool needs_resting(std::uint32_t node);
 
     ViewRefinerOptions options_;
@@ -163,12 +167,12 @@ private:
     bool waiting_ = false; ///< Something has to be done in a later frame.
     std::uint32_t frame_ = 0;
     std::vector<Candidate> splits_; ///< A heap with the largest error on top.
-    std::vector<Candidate> merges_;
+    std::vector<Candidate> collapses_;
     std::vector<std::uint32_t> turning_; ///< Scratch memory of reverse_moves: slots.
     std::vector<std::uint32_t> forced_;  ///< Scratch memory of needs_resting.
     /// For each slot the frame in which a split put its node there.
     std::vector<std::uint32_t> split_frames_;
-    std::vector<Merged> merged_; ///< One for each slot.
+    std::vector<LastCollapse> collapsed_; ///< One for each slot.
 };
 
 } // namespace octant::visuals::refine

@@ -74,11 +74,11 @@ double corner_cos(const Camera& camera, double aspect) {
 
 std::array<glm::dvec3, 4> frustum_normals(const Camera& camera, double aspect) {
     const Plane plane = plane_of(camera, aspect);
-    const glm::dvec2 least = plane.middle - plane.half;
-    const glm::dvec2 most = plane.middle + plane.half;
+    const glm::dvec2 min = plane.middle - plane.half;
+    const glm::dvec2 max = plane.middle + plane.half;
     const auto in_world = [&](const glm::dvec3& in_view) { return camera.view_to_world * glm::normalize(in_view); };
-    return {in_world({1.0, 0.0, least.x}), in_world({-1.0, 0.0, -most.x}), in_world({0.0, 1.0, least.y}),
-        in_world({0.0, -1.0, -most.y})};
+    return {in_world({1.0, 0.0, min.x}), in_world({-1.0, 0.0, -max.x}), in_world({0.0, 1.0, min.y}),
+        in_world({0.0, -1.0, -max.y})};
 }
 
 bool in_view(const glm::dvec3& centre_m, double radius_m, const std::array<glm::dvec3, 4>& frustum) {

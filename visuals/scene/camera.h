@@ -9,7 +9,7 @@
 
 namespace octant::visuals::scene {
 
-/// An eye point and where it looks. World: x east, y north, z up, metres.
+/// An eye point and its lens. World axes: x east, y north, z up, metres.
 struct Camera {
     glm::dvec3 eye_m{0.0};
     /// View axes are as in OpenGL: x right, y up, -z ahead.
@@ -17,16 +17,16 @@ struct Camera {
     /// Usually 45 degrees.
     double vertical_fov_rad = 0.785398163397448;
     double near_m = 0.5;
-    /// Where the middle of the picture's plane lies right of and above straight ahead, in units of its distance; the
-    /// plane stays square to straight ahead. The field of view is that of a picture in the middle: twice the tangent of
-    /// its half is the height of the plane.
+    /// The offset of the middle of the picture's plane to the right of and above straight ahead, in units of the
+    /// plane's distance; the plane stays square to straight ahead. Its height is 2 tan(vertical_fov_rad / 2), as
+    /// without offset.
     glm::dvec2 middle{0.0};
     /// Width over height of what a pixel covers.
     double pixel_aspect = 1.0;
 };
 
-/// Camera at `eye_m` that looks at `target_m`, upright. Looking straight up or down keeps north up; at itself, it looks
-/// north.
+/// An upright camera at `eye_m` that looks at `target_m`. A camera that looks straight up or down has north up; if both
+/// points are equal it looks north.
 Camera camera_looking_at(const glm::dvec3& eye_m, const glm::dvec3& target_m);
 
 /// Rotation from the view axes of a camera that looks ahead in a body (right, up, back) to that body's own (ahead,
@@ -40,8 +40,7 @@ glm::mat4 world_to_view(const Camera& camera);
 /// `aspect` = width / height of the picture in pixels, here and below.
 glm::mat4 view_to_clip(const Camera& camera, double aspect);
 
-/// Pixels that a metre covers straight ahead, one metre before the eye, along the side of pixels that is the shorter
-/// one.
+/// The pixels that a metre covers straight ahead at a distance of one metre, along the shorter side of pixels.
 double focal_px(const Camera& camera, int picture_height_px);
 
 /// The direction in which a camera looks, world axes.
@@ -54,7 +53,7 @@ double corner_cos(const Camera& camera, double aspect);
 /// bottom, top. A point is inside when every dot product is >= 0.
 std::array<glm::dvec3, 4> frustum_normals(const Camera& camera, double aspect);
 
-/// False only for a sphere, eye-relative, of which nothing is inside such planes.
+/// False only if no part of a sphere, eye-relative, is inside such planes.
 bool in_view(const glm::dvec3& centre_m, double radius_m, const std::array<glm::dvec3, 4>& frustum);
 
 } // namespace octant::visuals::scene

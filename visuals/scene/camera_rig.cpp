@@ -46,7 +46,7 @@ double elevation_of(const glm::dvec3& direction) {
     return std::asin(std::clamp(direction.z / glm::length(direction), -1.0, 1.0));
 }
 
-/// By how much of what is wanted an elevation may change.
+/// The part of a wanted change of elevation that does not pass straight up or down.
 double change_of_elevation(double elevation_rad, double wanted_rad) {
     const double steepest = std::max(steepest_rad, std::abs(elevation_rad));
     return std::clamp(elevation_rad + wanted_rad, -steepest, steepest) - elevation_rad;

@@ -9,7 +9,7 @@
 
 namespace octant::visuals::scene {
 
-/// What a view must know of the aircraft it shows.
+/// The properties of the aircraft that a view shows.
 struct Subject {
     /// The radius of the sphere around the reference point that holds the aircraft.
     double radius_m = 10.0;
@@ -17,25 +17,25 @@ struct Subject {
     glm::dvec3 pilot_eye_m{0.0};
 };
 
-/// Where the views stand that do not follow the aircraft.
+/// The eye points of views that do not follow the aircraft.
 struct FixedViewpoints {
     Tower tower;
     glm::dvec3 free_eye_m{0.0};
     glm::dvec3 free_look_m{0.0};
 };
 
-/// What a view remembers from one simulation step to the next: a value, so that a run repeats.
+/// The memory of a view from one simulation step to the next. A plain value, so that a run can be repeated.
 struct RigState {
     /// A unit vector, ahead as the camera follows it; zero before the first step.
     glm::dvec3 lagging_forward{0.0};
 };
 
-/// Memory after one simulation step of the aircraft that is followed.
+/// The memory after one simulation step of the aircraft that the view follows.
 RigState next_rig_state(const RigState& memory, const sim::AircraftState& state);
 
-/// The camera of a view at the state's time, turned and moved nearer as the settings say: the eye around the aircraft
-/// (chase, orbit; no nearer than the sphere around it), else the look. Neither is turned past straight up or down. The
-/// eye is lifted where it would be below the ground or within 2 m of it.
+/// The camera of a view at the state's time. The settings turn and zoom it: in chase and orbit views they move the eye
+/// around the aircraft, no nearer than the sphere around it; in others they turn the direction of view. Neither turns
+/// past straight up or down. The eye is kept at least 2 m above the ground.
 Camera camera_of(const ViewSettings& settings, const sim::AircraftState& state, const RigState& memory,
     const Subject& subject, const FixedViewpoints& points, const GroundHeight& ground);
 

@@ -9,7 +9,7 @@
 
 namespace octant::visuals::scene {
 
-/// The fine pattern of ground: a square tile of texels that repeats each way without a seam. A texel of 128 is the
+/// The detail pattern of ground: a square tile of texels that repeats each way without a seam. A texel of 128 is the
 /// mean. It is laid over the ground several times, from the finest scale on each `scale_step` times as wide as the one
 /// before and turned by a right angle: a pixel sees two of them, so that it has contrast however large it is.
 struct DetailPattern {
@@ -18,9 +18,8 @@ struct DetailPattern {
     static constexpr int scales = 4;
     static constexpr int levels_per_scale = 4; ///< halvings of size from one scale to the next
     static constexpr int scale_step = 1 << levels_per_scale;
-    /// How far a place moves east and north in the pattern for each metre that it lies higher, so that steep ground has
-    /// the pattern, too; at every second scale as far the other way: where one of them runs in streaks down a slope,
-    /// the next one does not.
+    /// The shift east and north in the pattern for each metre of height, so that steep ground has the pattern, too. At
+    /// every second scale it has the opposite sign, so that at most one of two scales runs in streaks down a slope.
     static constexpr glm::vec2 shift_per_height{0.22F, -0.27F};
     /// Ground whose normal leans more than by this tangent from the vertical shows the pattern upright, as on a wall
     /// that faces east or north, whichever is nearer: from above it would run in streaks down the slope. At this
@@ -39,10 +38,10 @@ struct DetailPattern {
 /// on every machine. Made when they are first asked for.
 const std::array<DetailPattern, DetailPattern::levels_per_scale + 1>& detail_mip_levels();
 
-/// How wide a tile of the pattern is at a scale.
+/// The width of a tile of the pattern at a scale.
 double detail_tile_m(int scale);
 
-/// Where a place lies in the pattern at a scale, in tiles; metres, world axes.
+/// The position in the pattern at a scale, in tiles, of a point in world axes.
 glm::dvec2 detail_tile_position(const glm::dvec3& place_m, int scale);
 
 } // namespace octant::visuals::scene

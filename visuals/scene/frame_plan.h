@@ -16,10 +16,11 @@
 #include <span>
 #include <vector>
 
-// The seam between deciding and drawing: the planner writes a FramePlan, a renderer draws it.
+// FramePlan is the interface between planning and drawing: the planner writes one for each picture, a renderer draws
+// it.
 //
 // All colours are display values (models/material.h), and all arithmetic is done on them directly; README.md of this
-// folder says what that costs.
+// folder describes the consequences.
 
 namespace octant::visuals::scene {
 
@@ -50,29 +51,51 @@ struct ModelBuffers {
     bool has_depth_drawn_meshes = false;
 };
 
+/// Values over the ground, row after row from the south, each from the west.
+struct GroundImage {
+    int width = 0;
+    int height = 0;
+    std::vector<std::uint8_t> texels;
+    /// The world place of the first texel's middle.
+    glm::dvec2 first_m{0.0};
+    /// The way from one texel's middle to the next.
+    glm::dvec2 step_m{1.0};
+};
+
+/// What a renderer loads once for ground that has colours and normals at each pixel instead of at each vertex.
+struct GroundTexture {
+    /// 3 bytes a texel: red, green, blue as display values, before light falls on it.
+    GroundImage albedo;
+    /// 2 bytes a texel: x and y of the unit normal, each 128 + 127 x.
+    GroundImage normal;
+    /// The mean colour of the lit ground, display values 0..1.
+    glm::vec3 mean_colour{0.0F};
+};
+
 /// How a step uses the depth buffer. Depth is reversed: greater is nearer.
 enum class DepthUse {
-    /// Drawn over whatever is there; depth is neither tested nor written.
+    /// Drawn over the picture so far; depth is neither tested nor written.
     None,
-    /// Drawn where it is nearer than what is there; depth is written.
+    /// Drawn where it is nearer than the depth buffer; depth is written.
     Nearest,
     /// As Nearest, but depth alone is written: colours stay as they are.
     DepthOnly,
-    /// Drawn where there is nothing but what lies well behind it; depth is written.
+    /// Drawn where the depth buffer is much farther away; depth is written.
     EdgeOn,
-    /// Drawn where it lies on what is there, a little towards the eye; depth is written.
+    /// Drawn where it is at the depth buffer's distance or nearer, with a small offset towards the eye; depth is
+    /// written.
     OnGround,
-    /// Drawn where nothing is; depth is not written.
+    /// Drawn where the depth buffer is clear; depth is not written.
     InfinitelyFar
 };
 
-/// Pixels of the picture from its upper left corner: columns least.x to most.x - 1, rows alike.
+/// The pixels of columns min.x to max.x - 1 and rows min.y to max.y - 1, counted from the picture's upper left corner.
 struct PixelBox {
-    glm::ivec2 least{0};
-    glm::ivec2 most{0};
+    glm::ivec2 min{0};
+    glm::ivec2 max{0};
 };
 
-/// Planes that a draw is cut by: what lies in front of all of them is drawn. World axes with the eye subtracted; xyz =
+/// The clip planes of a draw: points in front of all of them are drawn. World axes with the eye subtracted; xyz =
 /// normal, w = offset.
 struct Clip {
     static constexpr int max_planes = 8;
@@ -95,9 +118,9 @@ struct PaintStep {
         Aircraft,
         /// Meshes of FramePlan::refined are drawn without their back faces.
         Refined,
-        /// Indices of FramePlan::overlay are drawn as Overlay draws them; what comes later is drawn over it.
+        /// Indices of FramePlan::overlay are blended by their alpha; later steps draw over them.
         Transparent,
-        /// Indices of FramePlan::overlay are blended by their alpha, after all others.
+        /// Indices of FramePlan::overlay are blended by their alpha, after all other steps.
         Overlay
     };
     static constexpr std::uint32_t no_clip = ~std::uint32_t{0};
@@ -105,11 +128,11 @@ struct PaintStep {
     /// A place in the list that `content` names.
     std::uint32_t first = 0;
     std::uint32_t count = 0;
-    /// Index into FramePlan::clips; `no_clip` = what is drawn is not cut.
+    /// Index into FramePlan::clips; `no_clip` = not clipped.
     std::uint32_t clip = no_clip;
     DepthUse depth = DepthUse::None;
-    /// Aircraft alone: how much of what is there they hide. Below 1 they are blended over it where their depth, which
-    /// is Nearest, says so, and depth is not written: clear surfaces, drawn after all that they may be seen before.
+    /// For Aircraft only: coverage of the background, 0 to 1. Surfaces below 1 (glass) are blended where they are
+    /// nearer than the depth buffer (`depth` is Nearest) and write no depth; they come after everything behind them.
     float opacity = 1.0F;
 };
 
@@ -118,7 +141,8 @@ struct IndexRange {
     std::uint32_t first_index = 0;
     std::uint32_t index_count = 0;
     int polygons = 0;
-    /// Where its polygons begin in the list that the index buffer follows; 0 for a mesh.
+    /// The index of its first polygon in the list whose order the index buffer has (DrawOrder::polygons()); 0 for a
+    /// mesh.
     std::uint32_t first_polygon = 0;
 };
 
@@ -164,7 +188,7 @@ struct TriangleDraw {
     std::span<const std::uint32_t> indices;
 };
 
-/// A corner of what is drawn over the picture.
+/// A vertex of the overlay.
 struct OverlayVertex {
     /// Pixels from the picture's upper left corner.
     glm::vec2 at_px{0.0F};
@@ -191,7 +215,7 @@ struct GroundTextureTransforms {
     TextureTransform normal;
 };
 
-/// Air between the eye and what is seen: colour = mix(own, haze, 1 - exp(-depth)), mixed in display values. Depth is
+/// Haze between the eye and a point: colour = mix(own, haze, 1 - exp(-depth)), mixed in display values. Depth is
 /// distance / visibility times the mean density on the way over that at the eye. Density falls with exp(-height *
 /// falloff). The haze's colour is mix(colour, sunward, c^2), where c is the cosine of the way to the level direction of
 /// the sun, at least 0.
@@ -208,18 +232,19 @@ struct Haze {
     glm::vec3 sunward_colour{0.0F};
 };
 
-/// The fine pattern (grain_pattern.h) on ground that its vertices colour. By it and by a vertex's alpha, the number of
-/// a mixture of covers, a pixel differs from its colour, and by so much less as haze lies before it.
+/// The detail pattern (detail_pattern.h) on ground that its vertices colour. A pixel's colour varies by this pattern
+/// and by its vertex's alpha, which is the number of a mixture of land covers (LandCoverContrast). Haze weakens the
+/// variation.
 struct DetailTexture {
-    /// Where the eye stands in the pattern at each scale, in tiles, 0..1.
+    /// The eye's position in the pattern at each scale, in tiles, 0..1.
     std::array<glm::vec2, DetailPattern::scales> at_eye{};
-    /// How high the eye is above the pattern's origin, likewise: for slopes that show it upright.
+    /// The eye's height above the pattern's origin at each scale, in tiles, 0..1, for slopes that show it upright.
     std::array<float, DetailPattern::scales> eye_height_tiles{};
     std::shared_ptr<const LandCoverContrast> contrast;
 };
 
-/// What a surface that is lit in each pixel has beside the light of all others, where it faces the sun: white *
-/// sunlight * share * max(c, 0)^power, where c is the cosine between the mirrored light and the way to the eye.
+/// The highlight that FramePlan::lights_pixels adds to surfaces that face the sun: white * sunlight * share *
+/// max(c, 0)^power, where c is the cosine between the mirrored light and the direction to the eye.
 struct Highlight {
     static constexpr float share = 0.4F;
     static constexpr int power = 24;
@@ -235,8 +260,8 @@ enum class MeshDisplay {
 };
 
 /// Everything a renderer needs for one picture, and nothing of any graphics library. The picture begins as
-/// `background`; then each of `steps` is drawn over what is there, in their order. What no step names is not drawn: the
-/// other members say with what and under which light.
+/// `background`; then `steps` are drawn over it in their order. The other members are the data of the steps; data that
+/// no step names is not drawn.
 struct FramePlan {
     /// A rotation only: positions are relative to the eye.
     glm::mat4 world_to_view{1.0F};
@@ -267,7 +292,7 @@ struct FramePlan {
     /// vertices' alpha; nothing = by the vertices' colours. So is what is painted on textured ground: a triangle of
     /// shadow_vertices whose alpha is 0.
     std::optional<GroundTextureTransforms> ground_texture;
-    /// The fine pattern on ground and shadows without a texture; nothing = none.
+    /// The detail pattern on ground and shadows without a texture; nothing = none.
     std::optional<DetailTexture> detail_texture;
 
     /// Aircraft, in the order in which `steps` first names them.
@@ -280,14 +305,14 @@ struct FramePlan {
     std::vector<std::uint32_t> smooth;
     /// Smooth polygons are lit in each pixel (Phong's shading) instead of at their corners.
     bool lights_pixels = false;
-    /// What is drawn on the picture without haze: veils, which lie behind what later steps draw, and then what lies
-    /// over the picture.
+    /// Triangles in pixels of the picture, drawn without haze: first transparent geometry (clouds, effects, the path),
+    /// whose ranges Transparent steps draw among the aircraft; then the overlay, which the last step draws.
     OverlayDraw overlay;
 
     Haze haze;
     /// The direction to the sun: a unit vector, world axes.
     glm::vec3 to_sun{0.0F, 0.0F, 1.0F};
-    /// Light on what is lit here: a colour's display values times ambient + sunlight * cosine to the sun, cut at 1.
+    /// The light: a colour's display values are multiplied by ambient + sunlight * cosine to the sun, at most 1.
     glm::vec3 ambient{0.45F};
     glm::vec3 sunlight{0.65F};
 };

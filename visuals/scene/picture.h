@@ -1,5 +1,7 @@
 #pragma once
 
+#include <glm/vec2.hpp>
+
 #include <cstddef>
 #include <cstdint>
 #include <new>
@@ -7,8 +9,7 @@
 
 namespace octant::visuals::scene {
 
-/// Gives memory that begins where a line of the processor's caches does, so that whoever writes past the caches writes
-/// whole lines.
+/// Allocates memory aligned to a cache line, so that non-temporal stores write whole lines.
 template <class Value>
 struct CacheLineAllocator {
     using value_type = Value;
@@ -42,6 +43,28 @@ struct PixelRect {
     int y = 0;
     int width = 0;
     int height = 0;
+};
+
+/// Memory of a window into which a renderer writes a picture, so that nothing is copied.
+class WindowPicture {
+public:
+    virtual ~WindowPicture() = default;
+    WindowPicture(const WindowPicture&) = delete;
+    WindowPicture& operator=(const WindowPicture&) = delete;
+    WindowPicture(WindowPicture&&) = delete;
+    WindowPicture& operator=(WindowPicture&&) = delete;
+
+    /// The memory of the next picture, valid until the next call: four bytes a pixel (blue, green, red, one without
+    /// meaning), rows from the top without gaps, aligned to a cache line. Waits until the window no longer reads the
+    /// last picture.
+    virtual std::uint8_t* begin(const glm::ivec2& size_px) = 0;
+
+    /// Shows the picture of the last begin() in the lower left corner of the window, upright and stretched to
+    /// `window_px`.
+    virtual void show(const glm::ivec2& window_px) = 0;
+
+protected:
+    WindowPicture() = default;
 };
 
 } // namespace octant::visuals::scene

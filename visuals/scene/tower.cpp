@@ -52,11 +52,11 @@ Camera tower_camera(const Tower& tower, const glm::dvec3& aircraft_m, double rad
     const double close_fov_rad = fov_for_share(radius_m, distance_m, close_share);
     const double wide_rad = fov_for_share(radius_m, distance_m, wide_share);
     const double wanted_rad = std::abs(above_rad) / (aircraft_offset + skyline_offset);
-    // 1 where the skyline can be had, 0 where it is so far off that it is given up.
+    // 1 where the skyline fits into the picture, 0 where it is too far away from the aircraft.
     const double reach = 1.0 - glm::smoothstep(1.0, 1.6, wanted_rad / wide_rad);
     const double fov_rad = glm::mix(close_fov_rad, std::clamp(wanted_rad, close_fov_rad, wide_rad), reach);
     Camera camera = camera_looking_at(tower.eye_m, aircraft_m);
-    // Where no ground is in the picture its samples do not hold the lens wide.
+    // Without ground in the picture its samples do not limit the lens.
     const double recognisable_fov_rad = fov_for_share(radius_m, distance_m, min_share);
     const double lens_fov_rad = std::min(min_lens_fov_rad, recognisable_fov_rad);
     const double ground_fov_rad = std::min(tower.min_fov_rad, recognisable_fov_rad);
@@ -68,12 +68,12 @@ Camera tower_camera(const Tower& tower, const glm::dvec3& aircraft_m, double rad
     return camera;
 }
 
-// The site of the tower. Candidates beside the flight, nearer and farther, are scored by few views of the flight along
+// The site of the tower. Candidates near the flight are scored by few views of the flight along
 // coarse lines of sight. The best of them are scored again by many views along fine lines of sight.
 
 namespace {
 
-/// The farthest that relief is looked for.
+/// The distance up to which relief is searched.
 constexpr double farthest_m = 30000.0;
 /// The number of directions in which the skyline is known.
 constexpr int headings = 360;
@@ -87,8 +87,8 @@ constexpr double fast_turn_radps = 1.1;
 constexpr double steep_rad = rad_from_deg(35.0);
 /// The elevation of a look that shows nothing but sky.
 constexpr double upright_rad = rad_from_deg(65.0);
-/// The room between a line of sight and the ground below it; near the tower trees of that height may stand on it, which
-/// would fill a narrow lens.
+/// The clearance of a line of sight above the ground; near the tower it is larger, because trees would fill a narrow
+/// lens.
 constexpr double spare_m = 1.0;
 constexpr double trees_m = 16.0;
 constexpr double near_trees_m = 250.0;
@@ -97,25 +97,25 @@ constexpr double near_trees_m = 250.0;
 constexpr double coarse_step_ratio = 1.12;
 constexpr double fine_step_ratio = 1.03;
 
-/// Beside the flight, in radii of the aircraft, and above the ground, metres.
+/// The distances of sites from the flight, in radii of the aircraft, and their heights above the ground.
 constexpr std::array sideways_radii = {7.0, 14.0, 28.0, 56.0, 112.0, 224.0};
 constexpr std::array heights_m = {20.0, 40.0, 90.0};
-/// The most places of the flight beside which spots are looked for.
+/// The largest number of points of the flight near which sites are searched.
 constexpr std::size_t max_stations = 24;
-/// The number of looks at the flight by which all spots are compared.
+/// The number of views of the flight by which all sites are compared.
 constexpr std::size_t coarse_frame_count = 32;
-/// The number of spots that are then compared finely.
+/// The number of sites that are then compared finely.
 constexpr std::size_t fine_candidate_count = 16;
 
 double rising(double low, double high, double value) { return glm::smoothstep(low, high, value); }
 
-/// What lies along a look at the aircraft and on beyond it.
+/// The ground along a line of sight to the aircraft and beyond it.
 struct Sightline {
-    /// Whether no ground stands before the aircraft.
+    /// Whether no ground hides the aircraft.
     bool free = true;
     /// The elevation of the skyline beyond it.
     double skyline_rad = 0.0;
-    /// The distance of the ground that the aircraft is seen before.
+    /// The distance of the ground behind the aircraft in the picture.
     double behind_m = farthest_m;
     /// The distance of the skyline.
     double skyline_m = farthest_m;
@@ -147,10 +147,8 @@ Sightline trace_sightline(const glm::dvec3& eye_m, const glm::dvec2& level, doub
     return sightline;
 }
 
-/// Every how manieth of `count` things is looked at, so that there are at most `most`.
-std::size_t stride_for(std::size_t count, std::size_t most) {
-    return std::max<std::size_t>((count + most - 1) / most, 1);
-}
+/// The step with which at most `max` of `count` things are visited.
+std::size_t stride_for(std::size_t count, std::size_t max) { return std::max<std::size_t>((count + max - 1) / max, 1); }
 
 /// The narrowest field of view that spans many samples of ground so far off.
 double fov_for_samples(double distance_m, const TowerRequest& request) {
@@ -195,12 +193,12 @@ double score(
         sum += seen;
         in_sight += seen > 0.0 ? 1 : 0;
     }
-    // Where nothing is seen for a while, what is seen well else makes up for little of it.
+    // Good views at other times make up for little of the times at which nothing is visible.
     const double kept = count > 0 ? static_cast<double>(in_sight) / count : 0.0;
     return count > 0 ? kept * kept * kept * sum / count : 0.0;
 }
 
-/// Spots on the ground beside the flight, each at every height.
+/// The candidates for the site: points on the ground near the flight, each at every height.
 std::vector<glm::dvec3> candidate_sites(const TowerRequest& request, const GroundHeight& ground) {
     std::vector<glm::dvec3> candidates;
     const std::size_t stride = stride_for(request.flight.size(), max_stations);

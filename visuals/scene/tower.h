@@ -22,45 +22,45 @@ inline void lift_above_ground(glm::dvec3& eye_m, const GroundHeight& ground) {
 /// The narrowest field of view of the tower's lens.
 inline constexpr double min_lens_fov_rad = 0.0122;
 
-/// Where the tower's camera stands, and what it knows of the land around it.
+/// The position of the tower's camera, and the land around it.
 struct Tower {
     glm::dvec3 eye_m{0.0};
-    /// Elevation of the skyline at even steps of heading from north; empty: level all around.
+    /// Elevation of the skyline at equal steps of heading from north; empty = level all around.
     std::vector<float> skyline_rad;
-    /// A narrower field of view would show single samples of the ground.
+    /// The narrowest field of view, so that single samples of the ground do not show.
     double min_fov_rad = min_lens_fov_rad;
 };
 
 /// Elevation of the skyline at a heading, radians.
 double skyline_rad(const Tower& tower, double heading_rad);
 
-/// The tower's camera: near enough to know an aircraft of this radius, wider where that brings the skyline into the
-/// picture beside it, tilted towards the skyline by half the way.
+/// The tower's camera: its field of view is narrow enough to recognize an aircraft of this radius, but wider if that
+/// brings the skyline into the picture, too. It is tilted half of the way towards the skyline.
 Camera tower_camera(const Tower& tower, const glm::dvec3& aircraft_m, double radius_m);
 
-/// What a place for the tower is chosen by.
+/// The flight for which the tower's position is chosen.
 struct TowerRequest {
-    /// States of the flight at even times.
+    /// States of the flight at equal intervals.
     std::span<const sim::AircraftState> flight;
     /// The radius of the sphere around the aircraft.
     double radius_m = 10.0;
-    /// The spacing of the ground's samples; 0 = as fine as one likes.
+    /// The spacing of the ground's samples; 0 = continuous.
     double spacing_m = 0.0;
-    /// Where the tower stands if nothing is known of the flight.
+    /// The tower's position if `flight` is empty.
     glm::dvec2 fallback_m{0.0};
 };
 
-/// A tower at an eye point, lifted out of the ground, for flights as in the wish.
+/// A tower at an eye point, lifted above the ground.
 Tower tower_at(glm::dvec3 eye_m, const TowerRequest& request, const GroundHeight& ground);
 
-/// The tower on the ground from which the flight is seen best, as tower_score() has it; `fallback_m` where there is no
-/// ground beside the flight. The same wish gives the same tower. Loading work.
+/// The tower on the ground with the largest tower_score(); at `fallback_m` where there is no ground near the flight.
+/// The same request gives the same tower. Loading work.
 Tower tower_for(const TowerRequest& request, const GroundHeight& ground);
 
-/// How well a flight is seen from an eye point, 0..1: the mean over its times of how large the aircraft is, how near to
-/// the middle of the picture the skyline runs, so that relief and sky are seen, and how many samples of the ground
-/// behind it the picture spans. Times at which ground hides the aircraft, or no operator could follow it, count
-/// nothing, and the more of them there are the less the others count.
+/// A score, 0 to 1, of the view of a flight from an eye point: the mean over its times of three criteria: the size of
+/// the aircraft; the nearness of the skyline to the middle of the picture, so that relief and sky are visible; and the
+/// number of ground samples behind the aircraft in the picture. Times at which ground hides the aircraft, or it is too
+/// fast to follow, count as 0 and reduce the weight of the others.
 double tower_score(const glm::dvec3& eye_m, const TowerRequest& request, const GroundHeight& ground);
 
 } // namespace octant::visuals::scene

@@ -54,22 +54,22 @@ constexpr float no_end = std::numeric_limits<float>::infinity();
 /// A number of a block and its neighbours, row after row from the south-west.
 using NineBlocks = std::array<float, 9>;
 
-/// The least of the block's own number and those of neighbours, indexed as VerticalDistances::squared_m2.
+/// The minimum of the block's own number and those of some neighbours, indexed as VerticalDistances::squared_m2.
 std::array<float, 16> min_by_reach(const NineBlocks& of) {
-    std::array<float, 16> least{};
+    std::array<float, 16> min{};
     for (unsigned reach = 0; reach < 16; ++reach) {
         const int west = (reach & 1U) != 0 ? 0 : 1;
         const int east = (reach & 2U) != 0 ? 2 : 1;
         const int south = (reach & 4U) != 0 ? 0 : 1;
         const int north = (reach & 8U) != 0 ? 2 : 1;
-        least[reach] = no_end;
+        min[reach] = no_end;
         for (int row = south; row <= north; ++row) {
             for (int column = west; column <= east; ++column) {
-                least[reach] = std::min(least[reach], of[static_cast<std::size_t>(3 * row + column)]);
+                min[reach] = std::min(min[reach], of[static_cast<std::size_t>(3 * row + column)]);
             }
         }
     }
-    return least;
+    return min;
 }
 
 /// An eye farther from the field than this, in samples, is treated as being there, so that whole numbers of samples

@@ -1,7 +1,7 @@
 #pragma once
 
+#include "visuals/terrain/bisection_tiles.h"
 #include "visuals/terrain/ground_mesh.h"
-#include "visuals/terrain/ground_tiles.h"
 
 #include <glm/vec3.hpp>
 
@@ -12,10 +12,10 @@
 
 namespace octant::visuals::terrain {
 
-/// The vertical distance of the eye from the ground around a block, which is a node with height bounds.
+/// Vertical distances from the eye to the ground around a block. A block is a node with height bounds.
 struct VerticalDistances {
-    /// The smallest squared distance to the block and to some of its neighbours. The index is a sum: 1 includes those
-    /// beyond its west side, 2 east, 4 south, 8 north.
+    /// The smallest squared vertical distance to the block and to some of its neighbours. The index is a sum: 1
+    /// includes the neighbours beyond its west side, 2 east, 4 south, 8 north.
     std::array<float, 16> squared_m2{};
     /// For the same neighbours the smallest vertical part of the depth: the height above the eye times the vertical
     /// part of the direction of view, in metres. The depth of a place in the picture is this plus its horizontal part.
@@ -29,7 +29,7 @@ class LevelReader {
 public:
     using FourCodes = std::array<std::uint8_t, 4>;
 
-    /// Where a node's numbers lie: its tile, and its place in it.
+    /// The location of a node's numbers: the memory of its tile, and the index of the node in it.
     struct NodeSlot {
         const std::byte* tile;
         std::size_t node;
@@ -131,7 +131,7 @@ private:
     int mask_;
 };
 
-/// Four numbers computed at a time, each with the same result as alone.
+/// Four numbers that are computed together, each with the result of scalar arithmetic.
 using Float4 = float __attribute__((vector_size(16)));
 
 /// The larger one of each pair.
@@ -146,8 +146,8 @@ inline Float4 splat4(float each) { return Float4{each, each, each, each}; }
 /// Bounds the size in a picture of errors in boxes; bisection_criterion.cpp derives the bound.
 class BoxErrorBound {
 public:
-    /// The boxes of influence of four samples: their ends in samples from the eye, and the least vertical share of
-    /// their distance squared and of their depth.
+    /// The boxes of influence of four samples: their ends in samples from the eye, and, over each box, the minimum of
+    /// the squared vertical distance (`gap_m2`) and of the vertical part of the depth (`ahead_m`).
     struct FourBoxes {
         Float4 west;
         Float4 east;
@@ -160,8 +160,8 @@ public:
     explicit BoxErrorBound(double spacing_m)
         : spacing_m_(spacing_m), spacing_squared_m2_(static_cast<float>(spacing_m * spacing_m)) {}
 
-    /// Bounds for pictures in this direction from now on, by the cosine of the angle to their corners; for all around
-    /// the eye where the direction is zero.
+    /// Sets the direction of view and the cosine of the angle between it and the picture's corners. With a zero
+    /// direction the picture is a sphere around the eye.
     void set_direction(const glm::dvec3& ahead, double corner_cos);
 
     /// Whether the view has a direction.
@@ -172,13 +172,13 @@ public:
     Float4 squared_m2(const FourBoxes& boxes) const;
 
 private:
-    /// What a sample east and a sample north bring along a level direction, in metres.
+    /// The components, along a level direction, of one sample's step east and one north, in metres.
     struct AxisProjection {
         float east_m = 0.0F;
         float north_m = 0.0F;
     };
 
-    /// The ends of what boxes reach along a direction.
+    /// The extent of boxes along a direction.
     struct Range {
         Float4 min_m;
         Float4 max_m;
@@ -194,7 +194,7 @@ private:
     AxisProjection aside_; ///< Square to it, times the sine of the pitch.
     float level_ = 1.0F;   ///< The cosine of the pitch.
     float corner_cos_squared_ = 1.0F;
-    float max_aside_squared_ = 0.0F; ///< Of what lies aside in a picture, by depth.
+    float max_aside_squared_ = 0.0F; ///< The largest ratio of sideways distance to depth in a picture, squared.
     float near_factor_ = 1.0F;
 };
 
@@ -204,8 +204,7 @@ inline Float4 squared_distance(Float4 before, Float4 after) {
     return off * off;
 }
 
-/// A linear function at `before` where it rises and at `after` where it falls: its least over what reaches from
-/// `before` to `after`, and its most with the ends exchanged.
+/// The minimum of the linear function slope * x over x from `before` to `after`; with exchanged arguments its maximum.
 inline Float4 min_along(Float4 before, Float4 after, float slope) {
     return splat4(slope) * (slope > 0.0F ? before : after);
 }
@@ -215,11 +214,10 @@ inline BoxErrorBound::Range BoxErrorBound::range_along(const FourBoxes& b, const
         min_along(b.east, b.west, along.east_m) + min_along(b.north, b.south, along.north_m)};
 }
 
-/// Lower bounds of the depth over the level distance ahead or behind, at or above zero, of what a picture may show.
+/// Lower bounds, at or above zero, of the ratio of depth to level distance ahead or behind, for points in the picture.
 inline Float4 BoxErrorBound::min_share(const FourBoxes& b, const Range& level) const {
     constexpr float min_divisor_m = 1e-6F; // in place of a division by zero
-    // Only a picture that shows what lies straight below or above the eye shows what lies behind it; sums up to this
-    // count, because of rounding.
+    // Only a picture that shows the nadir or the zenith shows points behind the eye. Above 1 because of rounding.
     constexpr float sees_nadir = 1.0001F;
     const Float4 worst_m = b.ahead_m < splat4(0.0F) ? level.min_m : level.max_m;
     const Float4 before = splat4(1.0F) + b.ahead_m / max4(worst_m, splat4(min_divisor_m));
@@ -247,12 +245,12 @@ inline Float4 BoxErrorBound::squared_m2(const FourBoxes& b) const {
     return depth_m2 * max4(splat4(1.0F) / across, splat4(near_factor_));
 }
 
-/// A node, with what its ancestors know about it.
+/// A node, with the vertical distances of its block.
 struct NodeContext {
     int level = 0;
     int column = 0;
     int row = 0;
-    const VerticalDistances* distances = nullptr; ///< Those of the node or of its ancestor of range_level.
+    const VerticalDistances* distances = nullptr; ///< Those of the node, or of its ancestor of range_level.
 };
 
 /// The critical values and errors of the samples that a node's fan may have.
@@ -269,7 +267,7 @@ public:
     explicit BisectionCriterion(const GroundTiles& ground);
 
     /// Sets the view for the following calls. Errors include this share, 0 to 1, of the full morph margin
-    /// (tile_builder.cpp).
+    /// (bisection_tile_builder.cpp).
     void set_view(const MeshView& view, double margin_share = 1.0);
 
     const GroundTiles& ground() const { return *ground_; }
@@ -302,15 +300,15 @@ public:
     /// The largest error of the samples that need a node's centre, in errors of the centre.
     float share_below_centre(int level, int column, int row) const;
 
-    /// The same for the middle of one of a node's fan_edges.
+    /// The largest error of the samples that need the middle of one of a node's fan_edges, in errors of that middle.
     float share_below_middle(int level, int column, int row, std::size_t edge) const;
 
-    /// crossed_planes (frustum.h) for all that a mesh may draw of a node, where heights are drawn up to `margin_m`
-    /// beyond those of the node's samples.
+    /// crossed_planes (frustum.h) for a box around all triangles of a node in any mesh, whose vertices are drawn up to
+    /// `margin_m` above or below the node's samples.
     unsigned crossed_planes_of_node(
         const NodeContext& place, const VerticalDistances& distances, float margin_m, unsigned planes) const;
 
-    /// How much the ground is lowered at a place, given in metres east and north of the eye.
+    /// The drop of the ground by the earth's curvature at a point, given in metres east and north of the eye.
     template <typename Real>
     Real drop_m(Real east_m, Real north_m) const {
         return static_cast<Real>(half_curvature_per_m_) * (east_m * east_m + north_m * north_m);
@@ -335,8 +333,8 @@ private:
     const GroundTiles* ground_;
     MeshView view_;
     std::vector<Level> levels_;
-    /// For each code of an error with full margin the share of it that counts, and the same for those without margin:
-    /// an error is the sum of both.
+    /// An error is the sum of both: the metres of its code with full margin times margin_share, and of its code without
+    /// margin times the rest.
     std::array<float, 256> full_margin_m_{};
     std::array<float, 256> no_margin_m_{};
     bool has_full_margin_ = true;

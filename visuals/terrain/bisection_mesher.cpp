@@ -15,10 +15,10 @@
 // is the mean of two meshes, without the vertex (errors up to f) and with it (up to r f), and its error is at most (1 -
 // w) f + w r f, which is never more than 1: geomorphs keep the bound. Where the eye comes nearer by a small share of
 // its distance, a vertex that lies d target errors from the middle of its ends moves by d / (1 - r) times that share at
-// most, and the errors of tile_builder.cpp keep d / (1 - r) small.
+// most, and the errors of bisection_tile_builder.cpp keep d / (1 - r) small.
 //
 // Deviations:
-// - Where the field's end cuts a node, the mesh is that of the padded square (ground_tiles.h), and
+// - Where the field's end cuts a node, the mesh is that of the padded square (bisection_tiles.h), and
 //   its triangles are cut off at the border (fan_triangles.cpp).
 // - Corners and centre of the root are always in the mesh, at their samples.
 #include "visuals/terrain/bisection_mesher.h"
@@ -124,8 +124,8 @@ inline float BisectionMesher::weight_of(float critical, const ShareBelow& share_
     const float over = morph_limit_ / critical;
     if (over >= morph_ratio * morph_ratio) { return 1.0F; }
     const float below = std::max(share_below(), 1.0F / morph_ratio);
-    const float least = 1.0F - 1.0F / std::sqrt(over);
-    return least >= 1.0F - below ? 1.0F : std::max(least, 0.0F) / (1.0F - below);
+    const float min_weight = 1.0F - 1.0F / std::sqrt(over);
+    return min_weight >= 1.0F - below ? 1.0F : std::max(min_weight, 0.0F) / (1.0F - below);
 }
 
 /// Adds a vertex between its ends and its sample, lowered by the earth's curvature.
@@ -367,11 +367,11 @@ void BisectionMesher::add_triangles_in(
     std::uint32_t own, const BoxTest& wanted, std::vector<std::uint32_t>& triangles) const {
     const BisectionNode& node = nodes_[own];
     const FanSamples samples(*ground_, ground_->layout().level(node.level).edge, node.column, node.row);
-    const GridSample least = samples.at(0, 0);
-    const GridSample most = samples.at(2, 2);
+    const GridSample min = samples.at(0, 0);
+    const GridSample max = samples.at(2, 2);
     const glm::dvec2 half_m = ground_->half_extent_m();
-    const glm::dvec2 west_south = glm::dvec2(least.column, least.row) * ground_->spacing_m() - half_m;
-    const glm::dvec2 east_north = glm::dvec2(most.column, most.row) * ground_->spacing_m() - half_m;
+    const glm::dvec2 west_south = glm::dvec2(min.column, min.row) * ground_->spacing_m() - half_m;
+    const glm::dvec2 east_north = glm::dvec2(max.column, max.row) * ground_->spacing_m() - half_m;
     if (triangle_ranges_[own].first == triangle_ranges_[own].end ||
         !wanted({west_south, static_cast<double>(drawn_heights_[own].lowest_m) + view_.eye_m.z},
             {east_north, static_cast<double>(drawn_heights_[own].highest_m) + view_.eye_m.z})) {

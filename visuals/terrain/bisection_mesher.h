@@ -2,11 +2,11 @@
 
 #include "models/colour_vertex.h"
 #include "visuals/terrain/bisection_criterion.h"
+#include "visuals/terrain/bisection_horizon_error.h"
 #include "visuals/terrain/bisection_selection.h"
+#include "visuals/terrain/bisection_tiles.h"
 #include "visuals/terrain/fan_triangles.h"
 #include "visuals/terrain/ground_mesh.h"
-#include "visuals/terrain/ground_tiles.h"
-#include "visuals/terrain/horizon_error.h"
 #include "visuals/terrain/paint_order.h"
 
 #include <glm/vec2.hpp>
@@ -45,17 +45,18 @@ public:
     ~BisectionMesher() = default;
 
     /// The mesh at the smallest error, at or above the target's, for which no larger error gives more triangles than
-    /// the target's, whatever was meshed before. With geomorphs and a budget it is also at or above that of
-    /// HorizonError: where the horizon is not in the picture, triangles may be left over. The mesh is returned again,
-    /// without work, when view and target are those of the last call. Colours are left to vertices(). Beside the
-    /// samples in use there may be vertices that are only ends of others. Vertices and indices stay valid until the
-    /// next mesh but one, so that a mesh can be drawn while the next is made; origins until the next mesh.
+    /// the target's; earlier meshes do not influence it. With geomorphs and a budget it is also at or above that of
+    /// HorizonError: where the horizon is not in the picture, the budget may not be used up. The mesh is returned
+    /// again, without work, when view and target are those of the last call. Colours are left to vertices(). Besides
+    /// the vertices of triangles there may be others from whose middle a vertex appears. Vertices and indices stay
+    /// valid until the next mesh but one, so that a mesh can be drawn while the next is made; origins until the next
+    /// mesh.
     GroundMesh mesh(const MeshView& view, const ErrorTarget& target);
 
     /// The vertices of the last mesh, so that their colours can be set.
     std::span<models::ColourVertex> vertices() { return std::span(vertices_).first(vertex_count_); }
 
-    /// Does the work now that triangles_in() would otherwise do first. It does not read colours.
+    /// Computes the boxes that triangles_in() needs, in advance. It does not read colours.
     void measure_boxes() const;
 
     /// Decides whether the triangles in a box (world axes, metres) are wanted.
@@ -72,7 +73,7 @@ private:
     static constexpr std::uint32_t root_node = 1; ///< BisectionSelection::nodes
 
     /// Four vertices or nodes of a fan.
-    using Four = std::array<std::uint32_t, 4>; ///< vertices or nodes
+    using Four = std::array<std::uint32_t, 4>;
 
     /// The lowest and highest point of a node's triangles as drawn, relative to the eye.
     struct DrawnHeights {
@@ -90,7 +91,7 @@ private:
         Four beyond; ///< The nodes beyond fan_edges; 0 = none.
     };
 
-    /// A vertex that is to be made.
+    /// A vertex before it is made.
     struct NewVertex {
         GridSample at{};
         std::uint32_t parent_a = 0;
@@ -153,7 +154,7 @@ private:
     /// For each sample on the last column and then on the last row.
     std::vector<BorderVertex> border_vertices_;
     std::uint32_t mesh_number_ = 0;
-    std::size_t cut_nodes_ = 0; ///< How many nodes of this mesh the field's border cuts.
+    std::size_t cut_nodes_ = 0; ///< The number of nodes of this mesh that the field's border cuts.
     std::uint32_t vertex_count_ = 0;
     std::size_t index_count_ = 0;
     MeshCounters counters_;

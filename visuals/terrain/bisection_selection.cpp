@@ -23,7 +23,7 @@ constexpr double first_look_px = 4.0;
 } // namespace
 
 double margin_share(const ErrorTarget& target) {
-    const bool has_budget = target.max_triangles < any_triangles;
+    const bool has_budget = target.max_triangles < unlimited_triangles;
     const double share = target.error_px / full_margin_px * std::max(target.error_px / near_margin_px, 1.0);
     return has_budget ? 1.0 : std::min(share, 1.0);
 }
@@ -33,7 +33,7 @@ float BisectionSelection::limit_for(const ErrorTarget& target) {
     nodes_tested_ = 0;
     geomorphs_ = target.geomorphs;
     const float max_limit = std::max(criterion_->limit_of(target.error_px), min_limit);
-    if (target.max_triangles >= any_triangles) {
+    if (target.max_triangles >= unlimited_triangles) {
         start(max_limit);
         visit<false>(root_visit());
         return max_limit;

@@ -1,8 +1,9 @@
 #pragma once
 
 #include "visuals/terrain/bisection_criterion.h"
-#include "visuals/terrain/ground_tiles.h"
-#include "visuals/terrain/step_function.h"
+#include "visuals/terrain/bisection_tiles.h"
+#include "visuals/terrain/budget_search.h"
+#include "visuals/terrain/terrain_lod.h"
 
 #include <array>
 #include <cstddef>
@@ -12,39 +13,37 @@
 
 namespace octant::visuals::terrain {
 
-/// ErrorTarget::max_triangles without a limit.
-inline constexpr int any_triangles = 1 << 30;
-
-/// What is wanted of a mesh by screen-space error.
+/// The target of a mesh by screen-space error.
 struct ErrorTarget {
     /// The target error, at or above zero. With 0 every sample is used that is not on a straight line.
     double error_px = 1.0;
-    /// A larger error is allowed where this number would be exceeded; with any_triangles it never is.
+    /// The error becomes larger where the mesh would exceed this number. unlimited_triangles: there is no budget.
     int max_triangles = 32000;
     bool geomorphs = true;
 
     bool operator==(const ErrorTarget&) const = default;
 };
 
-/// The target error from which on vertices have the full morph margin where that error is the same in every frame. S,
-/// the speed of a vertex, is how far it moves in target errors while a distance shrinks by a small share of itself,
-/// divided by that share (tile_builder.cpp). Below this target error S full_margin_px is the largest speed in pixels.
-/// With 14, vertices jump by at most 0.25 px a frame along the four paths over three maps at 2 px, with 18 by 0.31 px.
+/// The smallest target error with the full morph margin, without a budget. S, the speed of a vertex, is
+/// |d offset / d ln(distance)| / target error, where the offset is the distance of the vertex from its sample
+/// (bisection_tile_builder.cpp). Below this target error the largest speed is S * full_margin_px pixels. With 14,
+/// vertices jump by at most 0.25 px a frame along the four paths over three maps at 2 px, with 18 by 0.31 px.
 inline constexpr double full_margin_px = 14.0;
 
-/// Above this target error the share grows with its square. S grows with a sample's error, because a larger one moves
-/// farther off; but with a larger target error it moves as near as a smaller one did.
+/// Above this target error the share of the margin grows with its square, because S grows with a sample's error: a
+/// larger error makes its vertex move farther away from the eye.
 inline constexpr double near_margin_px = 2.0;
 
 /// The share of the full morph margin that vertices get: 1 with a budget, because it changes the target error from
 /// frame to frame; otherwise proportional to the target error.
 double margin_share(const ErrorTarget& target);
 
-/// A node whose fan is in the mesh at some limits. Each member is the limit from which on that part exists.
+/// A node whose fan is in the mesh at some limits. The limits of its members are the smallest at which each part
+/// exists.
 struct alignas(64) BisectionNode {
     Float4 middle{};   ///< The mid-points of fan_edges.
     Float4 quadrant{}; ///< The fans of the children.
-    /// The nodes of those children that were looked at; 0 = none.
+    /// The nodes of those children that were visited; 0 = none.
     std::array<std::uint32_t, 4> child{};
     float node_limit = 0.0F; ///< The fan itself, by its centre.
     std::uint16_t column = 0;
@@ -53,9 +52,8 @@ struct alignas(64) BisectionNode {
     std::uint8_t hidden = 0; ///< The quadrants outside the frustum or the field.
 };
 
-/// Collects what a mesh by screen-space error consists of, and finds the error that spends a budget of triangles,
-/// exactly and before the mesh is made. It does for BisectionCriterion what QuadtreeSelection does for the paper's
-/// quadtree.
+/// Collects the nodes of a mesh by screen-space error, and finds the error at which the mesh has a budget of triangles,
+/// exactly and before the mesh is made.
 class BisectionSelection {
 public:
     /// The criterion must outlive the selection.
@@ -65,14 +63,14 @@ public:
     /// triangles than allowed. The root's fan is always in the mesh.
     float limit_for(const ErrorTarget& target);
 
-    /// The nodes of all meshes up to the limit that was found, and some more: parents before children. Entry 0 stands
-    /// for no node; entry 1 is the root.
+    /// At least the nodes of all meshes up to the limit that was found, parents before children. Entry 0 stands for no
+    /// node; entry 1 is the root.
     std::span<const BisectionNode> nodes() const { return std::span(nodes_).first(count_); }
 
     int nodes_tested() const { return nodes_tested_; }
 
 private:
-    /// A node that is to be visited.
+    /// A node to visit.
     struct PendingNode {
         NodeContext place;
         unsigned planes = 0;     ///< The frustum planes that it may reach beyond.
@@ -81,7 +79,7 @@ private:
         int replaced = 0;        ///< How many triangles of its parent it replaces.
     };
 
-    /// What was found out about the children of a node.
+    /// The visibility of the children of a node.
     struct Children {
         std::array<unsigned, 4> planes{};
         unsigned hidden = 0;

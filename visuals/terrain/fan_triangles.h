@@ -1,6 +1,6 @@
 #pragma once
 
-#include "visuals/terrain/step_function.h"
+#include "visuals/terrain/budget_search.h"
 
 #include <algorithm>
 #include <array>
@@ -43,7 +43,7 @@ struct RingSample {
 inline constexpr std::array<RingSample, 8> fan_ring = {
     {{0, 0}, {1, 0}, {2, 0}, {2, 1}, {2, 2}, {1, 2}, {0, 2}, {0, 1}}};
 
-/// The place of a fan's centre behind those of fan_ring.
+/// The index of a fan's centre, after those of fan_ring.
 inline constexpr std::size_t centre_of_ring = 8;
 
 /// For each child its corners, in the order of fan_ring, as places of its parent's ring and centre.
@@ -60,8 +60,8 @@ struct GridSample {
     int row;
 };
 
-/// The nine samples that the triangles of a node's fan may use. at() and what uses it move those beyond the field onto
-/// its last column and row; padded() leaves them where they are.
+/// The nine samples that the triangles of a node's fan may use. Samples beyond the field are moved onto its last column
+/// and row, except by padded().
 class FanSamples {
 public:
     /// `ground` is anything that has columns() and rows() in samples; `edge` is the node's edge in samples.
@@ -89,7 +89,7 @@ public:
 
     GridSample last() const { return {last_column_, last_row_}; }
 
-    /// Of a place of fan_ring or of the centre.
+    /// The sample of an index of fan_ring or of the centre.
     GridSample ring(std::size_t place) const {
         return place == centre_of_ring ? at(1, 1) : at(fan_ring[place].east, fan_ring[place].north);
     }
@@ -151,7 +151,7 @@ inline FanTriangles triangles_with_area(const FanSamples& samples) {
     return triangles;
 }
 
-/// A corner of a triangle of the padded square, or of what the field's border leaves of one.
+/// A corner of a triangle of the padded square, or of the part of one within the field's border.
 struct ClipVertex {
     GridSample at{};
     float height = 0.0F;
@@ -177,7 +177,7 @@ ClippedPolygon clip_to_border(const std::array<ClipVertex, 3>& triangle, const G
 /// The triangles of a node at the field's north or east end that are left within the field.
 FanTriangles triangles_within_border(const FanSamples& samples);
 
-/// From which limits on the parts of a fan are in the mesh.
+/// The smallest limits at which the parts of a fan are in the mesh.
 struct FanLimits {
     float node_limit = 0.0F;            ///< The fan itself.
     const std::array<float, 4>& middle; ///< The mid-points of fan_edges.

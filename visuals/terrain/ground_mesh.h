@@ -10,30 +10,30 @@
 
 namespace octant::visuals::terrain {
 
-/// In which order triangles are drawn.
+/// The order in which triangles are drawn.
 enum class PaintOrder {
     /// No triangle is hidden by an earlier one, so that pictures need no depth buffer.
     BackToFront,
     FrontToBack ///< Exactly the reverse: with a depth buffer, what is hidden is rejected early.
 };
 
-/// From where the ground is seen.
+/// The view for which a mesh is made.
 struct MeshView {
     glm::dvec3 eye_m{0.0}; ///< In world axes; may lie outside the field or below the ground.
     /// The view frustum's planes through the eye, as unit normals in world axes that point inside. A zero vector leaves
     /// out its plane; if all are zero, nothing is culled.
     std::array<glm::dvec3, 4> frustum_normals{glm::dvec3(0.0), glm::dvec3(0.0), glm::dvec3(0.0), glm::dvec3(0.0)};
-    /// How many times larger things appear than through the reference lens: tan(reference / 2) / tan(field of view /
-    /// 2), at least 1 (asserted). It multiplies C.
+    /// The magnification against the reference lens: tan(reference / 2) / tan(field of view / 2), at least 1
+    /// (asserted). It multiplies C.
     double magnification = 1.0;
     PaintOrder order = PaintOrder::BackToFront;
     /// The focal length in pixels: how many pixels a metre covers at a distance of one metre in the middle of the
     /// picture, picture height / (2 tan(vertical field of view / 2)). For meshes by screen-space error.
     double focal_px = 869.1;
-    /// Where the picture looks, a unit vector in world axes. Errors are then those in the flat picture around that
+    /// The direction of view, a unit vector in world axes. Errors are then those in the flat picture around that
     /// direction; with a zero vector, those in a picture on a sphere around the eye.
     glm::dvec3 ahead{0.0};
-    /// The cosine of the angle between `ahead` and what the picture's corners show.
+    /// The cosine of the angle between `ahead` and the picture's corners.
     double corner_cos = 1.0;
     /// The ground is lowered by d^2 / (2 R), where d is the horizontal distance from the eye; 0 = flat earth. For
     /// meshes by screen-space error.
@@ -42,20 +42,20 @@ struct MeshView {
     bool operator==(const MeshView&) const = default;
 };
 
-/// What a mesh consists of and what it took to make it.
+/// Counts of a mesh and of the work to make it.
 struct MeshCounters {
     int triangles = 0;
     int fans = 0;          ///< Nodes that gave at least one triangle.
     int nodes_visited = 0; ///< How often nodes were tested for culling or splitting.
 };
 
-/// A mesh of which only the counts are known.
+/// The counts of a mesh that was not made.
 struct CountedMesh {
     MeshCounters counters;
     double resolution = 0.0; ///< C it would be made with, before magnification.
 };
 
-/// Where the vertex of a mesh with geomorphs comes from. 16 bytes.
+/// The geomorph of a vertex. 16 bytes.
 struct VertexMorph {
     std::uint16_t column = 0; ///< The sample that it belongs to.
     std::uint16_t row = 0;
@@ -63,7 +63,7 @@ struct VertexMorph {
     /// if it is always there.
     std::uint32_t parent_a = 0;
     std::uint32_t parent_b = 0;
-    /// How far it has moved: 0 = wholly at the middle of its ends, 1 = wholly at its sample.
+    /// The progress of its motion: 0 = in the middle between its parents, 1 = at its sample.
     float weight = 1.0F;
 };
 
@@ -75,9 +75,10 @@ struct GroundMesh {
     std::span<const std::uint32_t> indices;
     MeshCounters counters;
     double resolution = 0.0; ///< C it was made with, before magnification.
-    /// How far any sample in the picture may lie from the triangles, in pixels; 0 where C decides.
+    /// An upper bound of the distance of any sample in the picture from the triangles, in pixels; 0 for the paper's
+    /// method.
     double error_px = 0.0;
-    std::span<const VertexMorph> morphs; ///< One for each vertex; empty where C decides.
+    std::span<const VertexMorph> morphs; ///< One for each vertex; empty for the paper's method.
 };
 
 /// A node that is in the mesh. Its centre is a vertex unless all four quadrants are split. Sets of quadrants are bit

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "models/heights/height_field.h"
-#include "visuals/terrain/ground_tiles.h"
+#include "visuals/terrain/bisection_tiles.h"
 
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
@@ -10,8 +10,7 @@
 
 namespace octant::visuals::terrain {
 
-/// The samples of a ground, whoever stores them; used by measurements and queries. It refers to the ground, which must
-/// outlive it. World axes as in HeightField.
+/// A view of the samples of a HeightField or of GroundTiles. The ground must outlive it. World axes as in HeightField.
 class GroundSamples {
 public:
     explicit GroundSamples(const models::heights::HeightField& field)
@@ -33,7 +32,7 @@ public:
     /// Half the extent of the field from its centre, east and north, metres.
     glm::dvec2 half_extent_m() const { return half_extent_m_; }
 
-    /// The height of the highest sample, or more.
+    /// An upper bound of the heights.
     double highest_m() const { return highest_m_; }
 
     /// The height of a sample. Column and row must be within the grid.
@@ -73,23 +72,23 @@ private:
 /// The height of the ground; nothing outside the field.
 std::optional<double> ground_height_m(const GroundSamples& ground, double x_m, double y_m);
 
-/// What lies between two points.
+/// The result of line_of_sight().
 struct LineOfSight {
     bool visible = true; ///< The line is nowhere more than a micrometre below the ground.
-    /// The first point of the ground that hides, in world axes.
+    /// The first point of the ground that blocks the line, in world axes.
     std::optional<glm::dvec3> blocked_at_m;
     /// The height of the line above the ground where that is least; infinite where there is no ground below the line.
     double clearance_m = 0.0;
     glm::dvec3 min_clearance_at_m{0.0}; ///< The point of the ground at which the clearance is least.
 };
 
-/// Whether `to_m` is seen from `from_m`, both in world axes.
+/// Whether `to_m` is visible from `from_m`, both in world axes.
 LineOfSight line_of_sight(
     const GroundSamples& ground, const glm::dvec3& from_m, const glm::dvec3& to_m, double radius_m);
 
 /// The first point at which a ray meets the ground; nothing if it does not within `reach_m`. The direction is a unit
-/// vector. The ray is straight and the ground is lowered by curvature; what is returned is the ground point at its own
-/// height.
+/// vector. The ray is straight and the ground is lowered by curvature; the returned point has the ground's own height,
+/// without that.
 std::optional<glm::dvec3> intersect_ground(const GroundSamples& ground, const glm::dvec3& from_m,
     const glm::dvec3& direction, double reach_m, double radius_m);
 

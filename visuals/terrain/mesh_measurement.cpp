@@ -615,14 +615,14 @@ std::optional<VertexPopping> PoppingMeter::next(const GroundMesh& mesh, const Pe
     Frame& earlier = frames_[(taken_ + 1) % 2];
     later.set_mesh(mesh, view);
     if (++taken_ == 1) { return std::nullopt; }
-    VertexPopping most;
-    compare_at(later, earlier, later, most);
-    compare_at(earlier, later, later, most);
-    return most;
+    VertexPopping largest;
+    compare_at(later, earlier, later, largest);
+    compare_at(earlier, later, later, largest);
+    return largest;
 }
 
 /// Compares the vertices of `own` with the surface of `other`, as seen from `later`.
-void PoppingMeter::compare_at(const Frame& own, Frame& other, const Frame& later, VertexPopping& most) {
+void PoppingMeter::compare_at(const Frame& own, Frame& other, const Frame& later, VertexPopping& largest) {
     const PerspectiveView& view = later.view();
     own.for_each_used([&](std::uint32_t vertex, const glm::dvec3& vertex_m) {
         const auto shows = [&vertex_m](const PerspectiveView& picture) {
@@ -635,7 +635,7 @@ void PoppingMeter::compare_at(const Frame& own, Frame& other, const Frame& later
         if (there.z < view.near_m) { return; }
         const glm::dvec3 seen = view.seen_m(vertex_m - view.eye_m);
         const double popping_px = glm::distance(view.pixel(seen), view.pixel(there));
-        if (popping_px > most.popping_px) { most = {popping_px, vertex_m}; }
+        if (popping_px > largest.popping_px) { largest = {popping_px, vertex_m}; }
     });
 }
 

@@ -19,7 +19,7 @@
 
 namespace octant::visuals::terrain {
 
-/// A perspective picture as far as measurements need it. World axes, metres.
+/// The camera of a perspective picture. World axes, metres.
 struct PerspectiveView {
     glm::dvec3 eye_m{0.0};
     glm::dvec3 right{1.0, 0.0, 0.0}; ///< Together with `up` and `ahead`: orthogonal unit vectors.
@@ -46,8 +46,7 @@ struct PerspectiveView {
     glm::dvec2 pixel(const glm::dvec3& seen) const { return glm::dvec2(seen.x, seen.y) * (focal_px / seen.z); }
 };
 
-/// How much the number of triangles changes from frame to frame in a run N_0, N_1, ..., where dn_k
-/// = N_k - N_{k-1} for k >= 1.
+/// The changes dn_k = N_k - N_{k-1}, k >= 1, of the number of triangles in a run N_0, N_1, ...
 struct ChangeStatistics {
     double mean = 0.0; ///< The mean of |dn|.
     int largest = 0;   ///< The largest |dn|.
@@ -68,7 +67,7 @@ std::optional<int> frames_until_constant(std::span<const int> triangles, std::si
 /// `share` of it; nothing when there is none.
 std::optional<int> frames_until_within(std::span<const int> triangles, int target, double share, int stable_frames);
 
-/// How far a mesh misses the full-resolution ground in one picture, in pixels.
+/// The error of a mesh against the full-resolution ground in one picture, in pixels.
 struct ProjectedError {
     double maximum_px = 0.0;
     double p999_px = 0.0; ///< The 99.9th percentile by nearest rank.
@@ -122,7 +121,7 @@ private:
     std::vector<glm::dvec3> grid_vertices_;
 };
 
-/// What is wrong with a mesh. If all counts are 0, the ground is a single surface without a crack, hole or fold.
+/// The defects of a mesh. If all counts are 0, the ground is a single surface without a crack, hole or fold.
 struct Conformity {
     /// Edges without a triangle on the other side, although the frustum sees them and the field goes on there.
     int open_edges = 0;
@@ -144,8 +143,7 @@ struct Conformity {
 /// Checks a mesh that was made for `view` by matching edges.
 Conformity check_conformity(const GroundSamples& ground, const GroundMesh& mesh, const MeshView& view);
 
-/// The surface that a mesh draws, to be asked by position in plan. Its memory is reused from mesh to mesh; the mesh
-/// itself is not needed after set_mesh().
+/// The surface of a mesh as a function of the position in plan. The mesh itself is not needed after set_mesh().
 class MeshSurface {
 public:
     /// Takes a mesh whose positions are relative to `eye_m`.
@@ -157,8 +155,8 @@ public:
     /// The world height of the surface; nothing where there is no mesh.
     std::optional<double> height_at(double x_m, double y_m) const;
 
-    /// The first point at which the way between two world positions meets the mesh, as a share of that way; nothing if
-    /// it does not.
+    /// The first intersection of the line between two world positions with the mesh, as a fraction of the line; nothing
+    /// without one.
     std::optional<double> first_hit(const glm::dvec3& from_m, const glm::dvec3& to_m) const;
 
 private:
@@ -208,7 +206,7 @@ public:
     std::optional<VertexPopping> next(const GroundMesh& mesh, const PerspectiveView& view);
 
 private:
-    /// A frame's mesh and what finds the height of its surface.
+    /// A frame's mesh and its surface.
     class Frame {
     public:
         void set_mesh(const GroundMesh& mesh, const PerspectiveView& view);

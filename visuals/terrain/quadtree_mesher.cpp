@@ -14,9 +14,9 @@
 // - QuadtreeCriterion states those of equation (3).
 #include "visuals/terrain/quadtree_mesher.h"
 
+#include "visuals/terrain/budget_search.h"
 #include "visuals/terrain/fan_triangles.h"
 #include "visuals/terrain/frustum.h"
-#include "visuals/terrain/step_function.h"
 
 #include <glm/vec2.hpp>
 

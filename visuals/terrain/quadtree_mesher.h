@@ -1,11 +1,11 @@
 #pragma once
 
 #include "models/colour_vertex.h"
+#include "visuals/terrain/budget_search.h"
 #include "visuals/terrain/fan_triangles.h"
 #include "visuals/terrain/ground_mesh.h"
 #include "visuals/terrain/paint_order.h"
 #include "visuals/terrain/quadtree.h"
-#include "visuals/terrain/step_function.h"
 
 #include <glm/vec3.hpp>
 
@@ -26,10 +26,10 @@ struct NodeBox {
     glm::dvec3 max_m;
 };
 
-/// Which nodes of a quadtree a view switches on, and which it cannot see.
+/// Decides which nodes of a quadtree a view switches on, and which are out of view.
 class QuadtreeCriterion {
 public:
-    /// What the criterion must know of a level of the tree.
+    /// The constants of a level of the tree.
     struct Level {
         int edge;    ///< In samples.
         int columns; ///< In nodes.
@@ -79,8 +79,8 @@ public:
                                              : own_critical_squared(level - 1, column / 2, row / 2);
     }
 
-    /// The same for the four children at (column, row) and east and north of it, by quadrant; meaningless for those
-    /// that do not exist.
+    /// critical_squared() of the four children at (column, row) and east and north of it, by quadrant; meaningless for
+    /// children that do not exist.
     std::array<float, 4> critical_squared_of_four(int level, int column, int row) const;
 
     /// A box around all samples of a node, a little wider than the tree's height bounds.
@@ -115,7 +115,7 @@ private:
 };
 
 /// A node that is in the mesh at some limits (QuadtreeCriterion::limit_squared). Its members tell from which limit on
-/// each of its parts is there; infinite means above all limits that were looked at.
+/// each of its parts is there; infinite means above all limits of the last walk.
 struct SelectedNode {
     GroundFan fan;                 ///< Its `split` is left empty.
     float node_limit = 0.0F;       ///< The node itself.
@@ -169,7 +169,7 @@ private:
     StepFunction steps_;
     float high_ = 0.0F;
     int max_triangles_ = 0;        ///< A walk stops once it has counted more.
-    bool has_steps_above_ = false; ///< Something visible appears only above the limits looked at.
+    bool has_steps_above_ = false; ///< Something visible appears only above the limits of the walk.
     int nodes_tested_ = 0;
     double last_resolution_ = 0.0; ///< 0 before the first call.
 };

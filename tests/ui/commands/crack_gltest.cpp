@@ -17,7 +17,7 @@ TEST_CASE("no crack shows on any path over the canyon, a frame a second") {
 
 TEST_CASE("the printed propagation does crack, so the test can see one") {
     ui::settings::RunSettings settings = tests::key_colour_settings("straight", "f15", "canyon", 1.0);
-    settings.ground.lod.propagation = visuals::scene::Propagation::Printed;
+    settings.ground.lod.propagation = visuals::terrain::RoughnessPropagation::Printed;
     settings.ground.triangles = 4000;
     CHECK(tests::cracks_in_flight(settings) > 0);
 }

@@ -13,7 +13,7 @@
 
 using namespace octant;
 using namespace octant::ui::terrain;
-using octant::visuals::scene::GroundMetric;
+using octant::visuals::terrain::GroundMetric;
 
 namespace {
 

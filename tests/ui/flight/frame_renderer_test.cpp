@@ -61,7 +61,7 @@ struct Views {
     explicit Views(const ui::world::World& world) : pictures(renderer, world.scene, settings) {
         settings.view.inset = scene::View::Tower;
         settings.view.size_px = {640, 480};
-        settings.ground.lod.metric = scene::GroundMetric::Midpoint;
+        settings.ground.lod.metric = visuals::terrain::GroundMetric::Midpoint;
     }
 
     /// Makes the views or brings them to what the settings and the scene are now.
@@ -92,7 +92,7 @@ TEST_CASE("an inset needs no file of the ground and maps it no second time") {
     ui::world::World world = small_world();
     Views views(world);
     views.settings.path.terrain = file.string();
-    views.settings.ground.lod.metric = scene::GroundMetric::ScreenError;
+    views.settings.ground.lod.metric = visuals::terrain::GroundMetric::ScreenError;
     world.scene.ground = ui::world::load_scene_ground(views.settings, ui::world::RenderDevice::Cpu).ground;
     REQUIRE(mappings_of(file) == 1);
     std::filesystem::remove(file);
@@ -140,7 +140,7 @@ TEST_CASE("an inset follows the scene to another ground") {
     Views views(world);
     views.update();
     const std::size_t level = views.inset_triangles();
-    world.scene.ground = landscape::make_quadtree_ground(rough_field(), views.settings.ground, views.settings.air);
+    world.scene.ground = landscape::make_field_ground(rough_field(), views.settings.ground, views.settings.air);
     views.update();
     CHECK(views.inset_triangles() > level);
 }
@@ -148,9 +148,9 @@ TEST_CASE("an inset follows the scene to another ground") {
 TEST_CASE("an inset settles anew when the control of its ground changes") {
     ui::world::World world = small_world();
     Views views(world);
-    views.settings.ground.lod.control = scene::DetailControl::Damped;
+    views.settings.ground.lod.control = visuals::terrain::DetailControl::Damped;
     views.settings.ground.lod.resolution_c = 3.0;
-    world.scene.ground = landscape::make_quadtree_ground(rough_field(), views.settings.ground, views.settings.air);
+    world.scene.ground = landscape::make_field_ground(rough_field(), views.settings.ground, views.settings.air);
     views.update();
     views.inset_triangles();
     views.settings.ground.lod.resolution_c = 30.0;

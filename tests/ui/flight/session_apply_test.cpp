@@ -146,7 +146,7 @@ TEST_CASE("settings that contradict each other or cannot be loaded leave a sessi
     asked.picture();
     never_asked.picture();
     RunSettings wrong = small_settings();
-    wrong.ground.lod.metric = scene::GroundMetric::Midpoint;
+    wrong.ground.lod.metric = visuals::terrain::GroundMetric::Midpoint;
     wrong.ground.error_px = 1.0;
     CHECK_THROWS_AS(asked.apply(wrong), Error);
     wrong = small_settings();
@@ -209,7 +209,7 @@ TEST_CASE("a change while ground is meshed ahead gives the pictures of ground me
     change([](RunSettings& settings) { settings.view.inset = scene::View::Chase; });
     change([](RunSettings& settings) { settings.air.sun_elevation_deg = 60.0; });
     change([](RunSettings& settings) {
-        settings.ground.lod.metric = scene::GroundMetric::Midpoint;
+        settings.ground.lod.metric = visuals::terrain::GroundMetric::Midpoint;
         settings.ground.error_px.reset();
     });
 }
@@ -273,8 +273,9 @@ TEST_CASE("ground in another light has the colours of ground that was loaded so"
 TEST_CASE("another light, palette or view reads no terrain again, whatever is drawn of it") {
     const std::filesystem::path map = scratch_folder() / "read_once.tif";
     const std::filesystem::path imported = scratch_folder() / "read_once.ground";
-    for (const auto& [terrain, mesh] : {std::pair{map, scene::GroundMetric::ScreenError},
-             std::pair{map, scene::GroundMetric::Midpoint}, std::pair{imported, scene::GroundMetric::ScreenError}}) {
+    for (const auto& [terrain, mesh] : {std::pair{map, visuals::terrain::GroundMetric::ScreenError},
+             std::pair{map, visuals::terrain::GroundMetric::Midpoint},
+             std::pair{imported, visuals::terrain::GroundMetric::ScreenError}}) {
         for (const auto shading : {scene::GroundShading::Vertex, scene::GroundShading::Texture}) {
             CAPTURE(terrain, static_cast<int>(mesh), static_cast<int>(shading));
             std::filesystem::copy_file(ground_file(), map, std::filesystem::copy_options::overwrite_existing);

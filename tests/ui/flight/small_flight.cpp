@@ -53,8 +53,8 @@ std::shared_ptr<const landscape::Ground> ground_with_plateau(double height_m) {
     std::vector<float> heights_m(side * side, 0.0F);
     std::fill(heights_m.begin() + 3 * side * side / 4, heights_m.end(), static_cast<float>(height_m));
     scene::GroundSettings by_quadtree;
-    by_quadtree.lod.metric = scene::GroundMetric::Midpoint;
-    return landscape::make_quadtree_ground({side, side, spacing_m, std::move(heights_m)}, by_quadtree, {});
+    by_quadtree.lod.metric = visuals::terrain::GroundMetric::Midpoint;
+    return landscape::make_field_ground({side, side, spacing_m, std::move(heights_m)}, by_quadtree, {});
 }
 
 ui::world::World small_world(int aircraft) {

@@ -55,10 +55,10 @@ models::heights::VoidValues other_value(const SettingInfo& /*info*/, const model
 
 glm::vec3 other_value(const SettingInfo& /*info*/, const glm::vec3& /*colour*/) { return {1.0F, 0.0F, 51.0F / 255.0F}; }
 
-visuals::scene::TerrainLod other_value(const SettingInfo& /*info*/, const visuals::scene::TerrainLod& /*value*/) {
-    return {.metric = visuals::scene::GroundMetric::Printed,
-        .fans = visuals::scene::GroundFans::Full,
-        .control = visuals::scene::DetailControl::Previous,
+visuals::terrain::TerrainLod other_value(const SettingInfo& /*info*/, const visuals::terrain::TerrainLod& /*value*/) {
+    return {.metric = visuals::terrain::GroundMetric::Printed,
+        .fans = visuals::terrain::FanKind::Full,
+        .control = visuals::terrain::DetailControl::Previous,
         .roughness_c = 7.5};
 }
 

@@ -95,18 +95,18 @@ TEST_CASE("terrain follows the frame time only where its triangles are counted")
     CHECK_NOTHROW(ui::settings::check_settings(settings));
     settings.path.terrain = "none";
     check_refused(settings, "--adapt terrain: expected ground with levels of detail, got none");
-    settings.ground.lod.control = scene::DetailControl::Damped;
+    settings.ground.lod.control = visuals::terrain::DetailControl::Damped;
     check_refused(settings, "--adapt terrain: expected --terrain-lod screen-error or exact, got another control");
 }
 
 TEST_CASE("the screen error is refused beside what only the quadtree has") {
     RunSettings settings;
-    settings.ground.lod.metric = scene::GroundMetric::Midpoint;
+    settings.ground.lod.metric = visuals::terrain::GroundMetric::Midpoint;
     settings.ground.error_px = 1.0;
     check_refused(settings, "--error-px: expected --terrain-lod screen-error, got another one");
-    settings.ground.lod.metric = scene::GroundMetric::ScreenError;
+    settings.ground.lod.metric = visuals::terrain::GroundMetric::ScreenError;
     CHECK_NOTHROW(ui::settings::check_settings(settings));
-    settings.ground.lod.control = scene::DetailControl::Damped;
+    settings.ground.lod.control = visuals::terrain::DetailControl::Damped;
     check_refused(settings, "--mesh screen-error: expected --detail exact without --roughness-c, --fans or "
                             "--propagation, got one that only --terrain-lod exact or paper has");
 }

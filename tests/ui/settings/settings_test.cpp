@@ -76,7 +76,7 @@ TEST_CASE("keys of the terrain mesh of earlier versions are read as --terrain-lo
         const std::string text = ui::settings::text_of(read.ground.lod);
         CHECK(ui::settings::settings_json(read).at("terrain-lod") == text);
         CHECK_FALSE(ui::settings::settings_json(read).contains("mesh"));
-        visuals::scene::TerrainLod again;
+        visuals::terrain::TerrainLod again;
         ui::settings::read_setting({"terrain-lod", "", ""}, text, again);
         CHECK(ui::settings::text_of(again) == text);
         return text;
@@ -95,7 +95,7 @@ TEST_CASE("keys of the terrain mesh of earlier versions are read as --terrain-lo
 
 TEST_CASE("the option terrain-lod is a kind with keys, and anything else is refused") {
     const auto refusal_of = [](const char* text) {
-        visuals::scene::TerrainLod lod;
+        visuals::terrain::TerrainLod lod;
         try {
             ui::settings::read_setting({"--terrain-lod", "", ""}, text, lod);
         } catch (const Error& fault) { return std::string(fault.what()); }

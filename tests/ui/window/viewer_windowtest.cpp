@@ -196,10 +196,10 @@ TEST_CASE("a click on the flight panel's button pauses the flight") {
 TEST_CASE("settings that do not go together are refused in the window as on the command line") {
     const auto driven = DrivenViewer::open(small_flight());
     if (!driven) { return; }
-    driven->state().next_settings.ground.lod.metric = visuals::scene::GroundMetric::ScreenError;
-    driven->state().next_settings.ground.lod.control = visuals::scene::DetailControl::Damped;
+    driven->state().next_settings.ground.lod.metric = visuals::terrain::GroundMetric::ScreenError;
+    driven->state().next_settings.ground.lod.control = visuals::terrain::DetailControl::Damped;
     driven->turns(3);
-    CHECK(driven->settings().ground.lod.control == visuals::scene::DetailControl::Exact);
+    CHECK(driven->settings().ground.lod.control == visuals::terrain::DetailControl::Exact);
     CHECK(driven->state().message.text.find("--mesh screen-error") != std::string::npos);
 }
 

@@ -119,7 +119,7 @@ TEST_CASE("an airfield stays where it is when the ground is meshed or coloured a
     const auto recoloured = ui::world::rebuilt_scene_ground(world.scene, settings, RenderDevice::Cpu);
     REQUIRE(recoloured);
     CHECK(recoloured->ground->runway() == world.scene.ground->runway());
-    settings.ground.lod.metric = visuals::scene::GroundMetric::Printed;
+    settings.ground.lod.metric = visuals::terrain::GroundMetric::Printed;
     const World other = ui::world::load_world(settings);
     REQUIRE(other.scene.ground->runway());
     CHECK(*other.scene.ground->runway() == *world.scene.ground->runway());

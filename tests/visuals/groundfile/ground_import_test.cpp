@@ -5,8 +5,8 @@
 #include "tests/scratch.h"
 #include "visuals/groundfile/ground_file.h"
 #include "visuals/groundfile/ground_import.h"
-#include "visuals/terrain/ground_builder.h"
-#include "visuals/terrain/ground_prefetcher.h"
+#include "visuals/terrain/bisection_ground_builder.h"
+#include "visuals/terrain/bisection_prefetcher.h"
 
 #include <catch2/catch.hpp>
 

@@ -1,6 +1,6 @@
 #include "models/procedural/procedural_terrain.h"
 #include "visuals/landscape/ground.h"
-#include "visuals/terrain/ground_builder.h"
+#include "visuals/terrain/bisection_ground_builder.h"
 
 #include <catch2/catch.hpp>
 

@@ -64,7 +64,7 @@ TEST_CASE("a plan of numbers has no smooth polygon and no tint") {
     planning::IdPlan ids(world);
     scene::FramePlan plan;
     plan.smooth = {~0U};
-    plan.aircraft = {{.model = 0, .tints = scene::shading_tints}};
+    plan.aircraft = {{.model = 0, .tints = planning::shading_tints}};
     const scene::FramePlan& numbered = ids.of(plan);
     CHECK(numbered.smooth == std::vector<std::uint32_t>{0U});
     CHECK(numbered.aircraft[0].tints.smooth == 0);

@@ -177,7 +177,7 @@ TEST_CASE("with a depth buffer one step draws the aircraft from the nearest") {
     const FramePlan& plan = planner.plan({Camera(), states}).plan;
     REQUIRE(plan.steps.size() == 2);
     CHECK(plan.steps[0].content == PaintStep::Content::ClearDepth);
-    CHECK(plan.depth_boxes.at(0).most == settings.view.size_px);
+    CHECK(plan.depth_boxes.at(0).max == settings.view.size_px);
     CHECK(plan.steps[1].content == PaintStep::Content::Aircraft);
     CHECK(plan.steps[1].count == 3);
     CHECK(plan.steps[1].depth == DepthUse::Nearest);

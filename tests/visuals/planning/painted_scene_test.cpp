@@ -210,10 +210,9 @@ TEST_CASE("aircraft among ridges are painted right over a quadtree's ground") {
     }
     Settings settings = plain_settings();
     settings.ground.triangles = 600;
-    settings.ground.lod.metric = GroundMetric::Midpoint;
-    const Total total =
-        paint_scenes(60, 5, make_quadtree_ground({65, 65, 12.5, heights_m}, settings.ground, settings.air),
-            over_ridges(300.0, 0.0, 60.0), over_ridges(380.0, 3.0, 60.0), settings);
+    settings.ground.lod.metric = octant::visuals::terrain::GroundMetric::Midpoint;
+    const Total total = paint_scenes(60, 5, make_field_ground({65, 65, 12.5, heights_m}, settings.ground, settings.air),
+        over_ridges(300.0, 0.0, 60.0), over_ridges(380.0, 3.0, 60.0), settings);
     total.check_right(5000);
     CHECK(total.cuts > 100);
 }

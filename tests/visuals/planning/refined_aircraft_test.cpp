@@ -1,6 +1,5 @@
 #include "visuals/planning/aircraft_model.h"
 #include "visuals/planning/refined_aircraft.h"
-#include "visuals/scene/model_display.h"
 
 #include <catch2/catch.hpp>
 #include <glm/ext/matrix_transform.hpp>
@@ -201,9 +200,9 @@ TEST_CASE("a refined mesh shows its levels: white where it is as its file, else 
     planning::RefinedAircraft fine(hierarchy(), refining(), shading);
     fine.update(below(5.0), looking_down(), true);
     for (const scene::ModelVertex& vertex : fine.draw().vertices) { CHECK(vertex.colour == 0xffffffffU); }
-    CHECK(scene::level_colour(0.0, 4.0) == 0xffffffffU);
-    CHECK(scene::level_colour(0.09, 4.0) != scene::level_colour(0.2, 4.0));
-    CHECK(scene::level_colour(0.09, 4.0) == scene::level_colour(0.9, 40.0));
+    CHECK(planning::level_colour(0.0, 4.0) == 0xffffffffU);
+    CHECK(planning::level_colour(0.09, 4.0) != visuals::planning::level_colour(0.2, 4.0));
+    CHECK(planning::level_colour(0.09, 4.0) == visuals::planning::level_colour(0.9, 40.0));
 }
 
 TEST_CASE("aircraft that share a hierarchy have fronts of their own") {

@@ -2,7 +2,7 @@
 #include "visuals/landscape/ground.h"
 #include "visuals/landscape/ground_palette.h"
 #include "visuals/planning/ground_pieces.h"
-#include "visuals/terrain/ground_builder.h"
+#include "visuals/terrain/bisection_ground_builder.h"
 
 #include <catch2/catch.hpp>
 #include <glm/common.hpp>

@@ -1,4 +1,4 @@
-#include "visuals/terrain/ground_builder.h"
+#include "visuals/terrain/bisection_ground_builder.h"
 
 #include <catch2/catch.hpp>
 
@@ -37,7 +37,7 @@ models::heights::HeightField rough_field() {
 /// By the paper's quadtree, with a control that remembers earlier frames.
 scene::Settings damped() {
     scene::Settings settings = plain_settings();
-    settings.ground.lod.control = scene::DetailControl::Damped;
+    settings.ground.lod.control = terrain::DetailControl::Damped;
     settings.ground.triangles = 600;
     return settings;
 }
@@ -78,7 +78,7 @@ struct TwoPlanners {
 TEST_CASE("a second view of the same ground does not disturb the detail control of the first") {
     const scene::Settings settings = damped();
     const planning::Scene scene =
-        scene_over(landscape::make_quadtree_ground(rough_field(), settings.ground, settings.air));
+        scene_over(landscape::make_field_ground(rough_field(), settings.ground, settings.air));
     planning::Planner alone(scene, settings);
     const std::vector<int> expected = flown(alone, [] {});
 
@@ -101,7 +101,7 @@ TEST_CASE("a second view of the same ground does not disturb the detail control 
 TEST_CASE("a planner whose settings are applied anew goes on with its detail") {
     const scene::Settings settings = damped();
     const planning::Scene scene =
-        scene_over(landscape::make_quadtree_ground(rough_field(), settings.ground, settings.air));
+        scene_over(landscape::make_field_ground(rough_field(), settings.ground, settings.air));
     planning::Planner alone(scene, settings);
     const std::vector<int> expected = flown(alone, [] {});
 
@@ -178,7 +178,7 @@ TEST_CASE("a mesher of tiles goes on over them in other colours, not over others
 
 TEST_CASE("ground says which settings it suits and is made anew of its heights for others") {
     scene::Settings settings = damped();
-    const auto field = landscape::make_quadtree_ground(rough_field(), settings.ground, settings.air);
+    const auto field = landscape::make_field_ground(rough_field(), settings.ground, settings.air);
     CHECK(field->matches_settings(settings.ground, settings.air));
     settings.ground.triangles = 50;
     settings.view.size_px = {320, 200};
@@ -204,7 +204,7 @@ TEST_CASE("ground says which settings it suits and is made anew of its heights f
 TEST_CASE("a plan is the same whether its aircraft were placed before it or not") {
     const scene::Settings settings = damped();
     const planning::Scene scene =
-        scene_over(landscape::make_quadtree_ground(rough_field(), settings.ground, settings.air));
+        scene_over(landscape::make_field_ground(rough_field(), settings.ground, settings.air));
     planning::Planner at_once(scene, settings);
     planning::Planner in_parts(scene, settings);
     const std::array there{state_at({0, 0, 100})};

@@ -112,9 +112,9 @@ TEST_CASE("models show their shading and their levels by tints, but for refined 
     };
     CHECK(tints(scene::ModelDisplay::None).smooth == 0);
     CHECK(tints(scene::ModelDisplay::None).flat == 0);
-    CHECK(tints(scene::ModelDisplay::Shading).smooth == scene::shading_tints.smooth);
-    CHECK(tints(scene::ModelDisplay::Shading).flat == scene::shading_tints.flat);
-    CHECK(tints(scene::ModelDisplay::Levels).flat == scene::level_colour(0.0, 1.0));
+    CHECK(tints(scene::ModelDisplay::Shading).smooth == planning::shading_tints.smooth);
+    CHECK(tints(scene::ModelDisplay::Shading).flat == planning::shading_tints.flat);
+    CHECK(tints(scene::ModelDisplay::Levels).flat == planning::level_colour(0.0, 1.0));
 }
 
 TEST_CASE("the paper's rule shades less smoothly the farther away") {

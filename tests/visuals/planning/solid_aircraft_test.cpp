@@ -79,12 +79,12 @@ TEST_CASE("depth is cleared where the mesh is seen and nowhere else") {
     const scene::FramePlan& plan = planner.plan({flight.camera, near}).plan;
     REQUIRE(plan.depth_boxes.size() == 1);
     const scene::PixelBox& box = plan.depth_boxes[0];
-    CHECK(box.least.x > 280);
-    CHECK(box.most.x < 360);
-    CHECK(box.least.x < 320);
-    CHECK(box.most.x > 320);
-    CHECK(box.least.y > 200);
-    CHECK(box.most.y < 280);
+    CHECK(box.min.x > 280);
+    CHECK(box.max.x < 360);
+    CHECK(box.min.x < 320);
+    CHECK(box.max.x > 320);
+    CHECK(box.min.y > 200);
+    CHECK(box.max.y < 280);
 }
 
 TEST_CASE("an eye inside the box of a mesh gets depth in the whole picture") {
@@ -93,8 +93,8 @@ TEST_CASE("an eye inside the box of a mesh gets depth in the whole picture") {
     const std::array around{state_at({0.2, 0, 50})};
     const scene::FramePlan& plan = planner.plan({flight.camera, around}).plan;
     REQUIRE(plan.depth_boxes.size() == 1);
-    CHECK(plan.depth_boxes[0].least == glm::ivec2(0));
-    CHECK(plan.depth_boxes[0].most == flight.settings.view.size_px);
+    CHECK(plan.depth_boxes[0].min == glm::ivec2(0));
+    CHECK(plan.depth_boxes[0].max == flight.settings.view.size_px);
 }
 
 TEST_CASE("ground that a mesh sticks in hides it by depth, and meshes that meet share one depth") {

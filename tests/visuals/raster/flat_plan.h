@@ -3,7 +3,6 @@
 #include "sim/base/random_generator.h"
 #include "visuals/raster/renderer.h"
 #include "visuals/scene/frame_plan.h"
-#include "visuals/scene/ground_texture.h"
 #include "visuals/scene/picture.h"
 
 #include <glm/vec2.hpp>

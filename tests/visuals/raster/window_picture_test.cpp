@@ -1,5 +1,5 @@
 #include "tests/visuals/raster/flat_plan.h"
-#include "visuals/scene/window_picture.h"
+#include "visuals/scene/picture.h"
 
 #include <catch2/catch.hpp>
 

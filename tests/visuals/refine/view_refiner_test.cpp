@@ -113,33 +113,33 @@ TEST_CASE("settled, every node that shows too large an error is split") {
     }
 }
 
-TEST_CASE("along a path no node is split and merged, or merged and split, within 10 frames") {
+TEST_CASE("along a path no node is split and collapsed, or collapsed and split, within 10 frames") {
     for (const double speed : {0.3, 1.0}) {
         for (const bool geomorphs : {false, true}) {
             ViewRefiner refiner(sphere(4), {.error_px = 6.0, .geomorphs = geomorphs});
             const ProgressiveMesh& mesh = refiner.front().mesh();
             std::map<std::uint32_t, int> last; // frame of each node's last change
             std::vector<bool> split(mesh.node_count(), false);
-            int merged = 0;
+            int collapsed = 0;
             int soon = 0;
             for (int frame = 0; frame < 700; ++frame) {
                 refiner.update(on_path(speed * frame));
                 for (auto node = static_cast<std::uint32_t>(mesh.leaf_count()); node < mesh.node_count(); ++node) {
                     if (refiner.front().is_split(node) == split[node]) { continue; }
                     split[node] = !split[node];
-                    merged += split[node] ? 0 : 1;
+                    collapsed += split[node] ? 0 : 1;
                     const auto known = last.find(node);
                     soon += known != last.end() && frame - known->second <= 10 ? 1 : 0;
                     last[node] = frame;
                 }
             }
-            CHECK(merged > 50);
+            CHECK(collapsed > 50);
             CHECK(soon == 0);
         }
     }
 }
 
-TEST_CASE("a node that was merged is split at once when the eye jumps near") {
+TEST_CASE("a node that was collapsed is split at once when the eye jumps near") {
     ViewRefiner refiner(sphere(4), {.error_px = 6.0, .geomorphs = false});
     const RefineView near = view_from({3.0, 0.0, 0.0});
     refine_fully(refiner, near);

@@ -25,13 +25,13 @@ TEST_CASE("level ground is four triangles, a bump refines the mesh around itself
     ErrorGround level(level_field(33, 33));
     MeshView view;
     view.eye_m = {0.0, 0.0, 10.0};
-    const GroundMesh coarse = level.mesher.mesh(view, {0.0, any_triangles, true});
+    const GroundMesh coarse = level.mesher.mesh(view, {0.0, unlimited_triangles, true});
     CHECK(coarse.counters.triangles == 4);
     CHECK(coarse.counters.fans == 1);
     CHECK(coarse.vertices.size() == 5);
     ErrorGround bump(bump_field(33, 13, 21, 2.0F));
-    CHECK(bump.mesher.mesh(view, {400.0, any_triangles, true}).counters.triangles == 4);
-    const GroundMesh near = bump.mesher.mesh(view, {1.0, any_triangles, false});
+    CHECK(bump.mesher.mesh(view, {400.0, unlimited_triangles, true}).counters.triangles == 4);
+    const GroundMesh near = bump.mesher.mesh(view, {1.0, unlimited_triangles, false});
     CHECK(near.counters.triangles > 30);
     CHECK(near.counters.triangles < 100);
     CHECK(std::any_of(near.vertices.begin(), near.vertices.end(),
@@ -42,7 +42,7 @@ TEST_CASE("without any error allowed, all samples beside straight lines are vert
     Numbers numbers(3);
     ErrorGround ground(rough_field(65, 40, 7));
     const MeshView view = everywhere_from(any_view(numbers, ground.field));
-    const GroundMesh mesh = ground.mesher.mesh(view, {0.0, any_triangles, true});
+    const GroundMesh mesh = ground.mesher.mesh(view, {0.0, unlimited_triangles, true});
     CHECK(mesh.error_px == 0.0);
     const auto heights_m = drawn_heights_m(mesh, ground.field, {0.0, 0.0, view.eye_m.z});
     const double radius_m = view.earth_radius_m;
@@ -64,7 +64,7 @@ TEST_CASE("no sample is seen farther from the mesh than the error asked for") {
         ErrorGround ground(any_field(size, numbers));
         const MeshView view = everywhere_from(any_view(numbers, ground.field));
         const double error_px = any_error_px(numbers);
-        const GroundMesh mesh = ground.mesher.mesh(view, {error_px, any_triangles, false});
+        const GroundMesh mesh = ground.mesher.mesh(view, {error_px, unlimited_triangles, false});
         const auto heights_m = drawn_heights_m(mesh, ground.field, {0.0, 0.0, view.eye_m.z});
         const double curvature = view.earth_radius_m > 0.0 ? 0.5 / view.earth_radius_m : 0.0;
         for (std::size_t k = 0; k < heights_m.size(); ++k) {

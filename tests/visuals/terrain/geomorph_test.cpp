@@ -69,10 +69,10 @@ TEST_CASE("with geomorphs the ground moves no faster than the eye lets it, least
             CHECK(smooth.vertices > 30);
             CHECK(smooth.largest_m < max_m(error_px));
             if (size > 65) { continue; }
-            const Moves jumping = moves_of(ground, {error_px, any_triangles, false});
+            const Moves jumping = moves_of(ground, {error_px, unlimited_triangles, false});
             CHECK(jumping.largest_m > 50.0 * smooth.largest_m);
             // Without a budget an error below full_margin_px moves as many pixels as that one.
-            const Moves steady = moves_of(ground, {error_px, any_triangles, true});
+            const Moves steady = moves_of(ground, {error_px, unlimited_triangles, true});
             CHECK(steady.largest_m < max_m(std::max(error_px, full_margin_px)));
         }
     }
@@ -116,13 +116,13 @@ TEST_CASE("without geomorphs all vertices are at their samples, with them the me
     Numbers numbers(8);
     ErrorGround ground(rough_field(100, 70, 3));
     const MeshView view = any_view(numbers, ground.field);
-    const MeshCopy rigid(ground.mesher.mesh(view, {3.0, any_triangles, false}));
+    const MeshCopy rigid(ground.mesher.mesh(view, {3.0, unlimited_triangles, false}));
     CHECK(std::all_of(
         rigid.morphs.begin(), rigid.morphs.end(), [](const VertexMorph& origin) { return origin.weight == 1.0F; }));
     MeshView whole = view;
     whole.frustum_normals.fill(glm::dvec3(0.0));
-    const MeshCopy all_rigid(ground.mesher.mesh(whole, {3.0, any_triangles, false}));
-    const MeshCopy all_morphed(ground.mesher.mesh(whole, {3.0, any_triangles, true}));
+    const MeshCopy all_rigid(ground.mesher.mesh(whole, {3.0, unlimited_triangles, false}));
+    const MeshCopy all_morphed(ground.mesher.mesh(whole, {3.0, unlimited_triangles, true}));
     CHECK(all_rigid.indices == all_morphed.indices);
 }
 

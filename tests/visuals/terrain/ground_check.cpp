@@ -51,6 +51,8 @@ bool on_border(std::uint32_t a, std::uint32_t b, const models::heights::HeightFi
            (p.row == q.row && (p.row == 0 || p.row == field.rows() - 1));
 }
 
+double heading_of(const glm::dvec2& place) { return std::atan2(place.y, place.x); }
+
 /// Part of a plan ray, in lengths of its direction.
 struct Passage {
     double first = 0.0;
@@ -77,23 +79,32 @@ std::optional<Passage> passage_through(const std::array<glm::dvec2, 3>& corners,
     return inside.last - inside.first > moment ? std::optional(inside) : std::nullopt;
 }
 
-/// Directions between each two neighbouring ones of those to the corners.
-std::vector<glm::dvec2> directions_between(const std::vector<std::array<glm::dvec2, 3>>& triangles) {
+/// Headings between each two neighbouring ones of those to the corners, ascending. The last one may be above pi.
+std::vector<double> headings_between(const std::vector<std::array<glm::dvec2, 3>>& triangles) {
     std::vector<double> angles_rad;
     for (const auto& corners : triangles) {
-        for (const glm::dvec2& corner : corners) { angles_rad.push_back(std::atan2(corner.y, corner.x)); }
+        for (const glm::dvec2& corner : corners) { angles_rad.push_back(heading_of(corner)); }
     }
     std::sort(angles_rad.begin(), angles_rad.end());
     if (!angles_rad.empty()) { angles_rad.push_back(angles_rad.front() + 2.0 * std::numbers::pi); }
-    std::vector<glm::dvec2> directions;
+    std::vector<double> headings_rad;
     constexpr double min_gap_rad = 1e-7;
     for (std::size_t k = 1; k < angles_rad.size(); ++k) {
         if (angles_rad[k] - angles_rad[k - 1] > min_gap_rad) {
-            const double middle_rad = 0.5 * (angles_rad[k] + angles_rad[k - 1]);
-            directions.emplace_back(std::cos(middle_rad), std::sin(middle_rad));
+            headings_rad.push_back(0.5 * (angles_rad[k] + angles_rad[k - 1]));
         }
     }
-    return directions;
+    return headings_rad;
+}
+
+/// Those of ascending headings at which a ray from the origin may pass a triangle: from the first to before the last
+/// number. All where the triangle is around the origin or across the heading pi.
+std::pair<std::size_t, std::size_t> headings_across(
+    const std::array<glm::dvec2, 3>& triangle, const std::vector<double>& headings_rad) {
+    const auto [low, high] = std::minmax({heading_of(triangle[0]), heading_of(triangle[1]), heading_of(triangle[2])});
+    if (high - low >= std::numbers::pi - 1e-6) { return {0, headings_rad.size()}; }
+    return {static_cast<std::size_t>(std::ranges::lower_bound(headings_rad, low) - headings_rad.begin()),
+        static_cast<std::size_t>(std::ranges::upper_bound(headings_rad, high) - headings_rad.begin())};
 }
 
 } // namespace
@@ -241,20 +252,21 @@ long wrongly_ordered_rays(
         return glm::dvec2(world_m - eye_m);
     };
     for (const SampleTriangle& t : triangles) { corners.push_back({seen_m(t.a), seen_m(t.b), seen_m(t.c)}); }
-    long wrong = 0;
     constexpr double tolerance_m = 1e-6;
-    for (const glm::dvec2& direction : directions_between(corners)) {
-        double nearest_m = std::numeric_limits<double>::infinity();
-        for (const auto& triangle : corners) {
+    const std::vector<double> headings_rad = headings_between(corners);
+    std::vector<double> nearest_m(headings_rad.size(), std::numeric_limits<double>::infinity());
+    std::vector<bool> is_wrong(headings_rad.size(), false);
+    for (const auto& triangle : corners) {
+        const auto [first, last] = headings_across(triangle, headings_rad);
+        for (std::size_t ray = first; ray < last; ++ray) {
+            const glm::dvec2 direction(std::cos(headings_rad[ray]), std::sin(headings_rad[ray]));
             const auto passage = passage_through(triangle, direction);
-            if (passage && passage->last > nearest_m + tolerance_m) {
-                ++wrong;
-                break;
-            }
-            nearest_m = passage ? passage->first : nearest_m;
+            if (!passage) { continue; }
+            is_wrong[ray] = is_wrong[ray] || passage->last > nearest_m[ray] + tolerance_m;
+            nearest_m[ray] = passage->first;
         }
     }
-    return wrong;
+    return std::count(is_wrong.begin(), is_wrong.end(), true);
 }
 
 MeshView camera_view(const glm::dvec3& eye_m, double yaw_rad, double pitch_rad, double fov_rad) {

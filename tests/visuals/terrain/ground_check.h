@@ -2,8 +2,8 @@
 
 #include "models/colour_vertex.h"
 #include "models/heights/height_field.h"
+#include "visuals/terrain/bisection_ground_builder.h"
 #include "visuals/terrain/bisection_mesher.h"
-#include "visuals/terrain/ground_builder.h"
 #include "visuals/terrain/ground_mesh.h"
 #include "visuals/terrain/quadtree_mesher.h"
 

@@ -2,7 +2,7 @@
 
 #include "models/heights/height_field.h"
 #include "tests/rough_heights.h"
-#include "visuals/terrain/ground_builder.h"
+#include "visuals/terrain/bisection_ground_builder.h"
 
 #include <algorithm>
 #include <cmath>

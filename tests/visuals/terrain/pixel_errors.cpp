@@ -42,8 +42,9 @@ public:
                 const double a = area2(sample, t[1], t[2]) / whole;
                 const double b = area2(t[0], sample, t[2]) / whole;
                 const double c = 1.0 - a - b;
+                if (std::min({a, b, c}) < -1e-5) { continue; }
                 const glm::dvec3 there = picture_.seen(sample);
-                if (std::min({a, b, c}) >= -1e-5 && picture_.shows(there)) {
+                if (picture_.shows(there)) {
                     const double drawn_m = a * t[0].z + b * t[1].z + c * t[2].z;
                     const glm::dvec3 here = picture_.seen({sample.x, sample.y, drawn_m});
                     errors_px.push_back(static_cast<float>(std::hypot(here.x - there.x, here.y - there.y)));

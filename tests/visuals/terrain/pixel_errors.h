@@ -1,7 +1,7 @@
 #pragma once
 
+#include "visuals/terrain/bisection_tiles.h"
 #include "visuals/terrain/ground_mesh.h"
-#include "visuals/terrain/ground_tiles.h"
 
 #include <glm/vec3.hpp>
 

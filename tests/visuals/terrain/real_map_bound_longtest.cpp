@@ -1,8 +1,8 @@
 #include "models/heights/height_field_import.h"
 #include "tests/real_files.h"
 #include "tests/visuals/terrain/pixel_errors.h"
+#include "visuals/terrain/bisection_ground_builder.h"
 #include "visuals/terrain/bisection_mesher.h"
-#include "visuals/terrain/ground_builder.h"
 
 #include <catch2/catch.hpp>
 
@@ -48,7 +48,7 @@ void check_map(const models::heights::HeightField& map) {
         const double earth_radius_m = v % 2 == 0 ? 0.0 : 6.371e6;
         for (const double error_px : {0.5, 1.0, 2.0}) {
             const MeshView view = picture.view(earth_radius_m);
-            const GroundMesh mesh = mesher.mesh(view, {error_px, any_triangles, true});
+            const GroundMesh mesh = mesher.mesh(view, {error_px, unlimited_triangles, true});
             const test::PixelErrors found = test::pixel_errors(mesh, ground, picture, earth_radius_m);
             INFO(map.name << ", view " << v << ", " << error_px << " px");
             CHECK(found.samples > 500);

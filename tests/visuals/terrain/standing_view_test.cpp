@@ -1,6 +1,6 @@
 #include "tests/visuals/terrain/ground_check.h"
-#include "visuals/terrain/detail_controller.h"
 #include "visuals/terrain/mesh_measurement.h"
+#include "visuals/terrain/quadtree_control.h"
 #include "visuals/terrain/quadtree_mesher.h"
 
 #include <catch2/catch.hpp>

@@ -7,11 +7,11 @@
 #include "ui/studies/study.h"
 #include "ui/world/scene_ground.h"
 #include "visuals/scene/camera.h"
+#include "visuals/terrain/bisection_ground_builder.h"
 #include "visuals/terrain/bisection_mesher.h"
-#include "visuals/terrain/detail_controller.h"
-#include "visuals/terrain/ground_builder.h"
-#include "visuals/terrain/ground_tiles.h"
+#include "visuals/terrain/bisection_tiles.h"
 #include "visuals/terrain/mesh_measurement.h"
+#include "visuals/terrain/quadtree_control.h"
 #include "visuals/terrain/quadtree_mesher.h"
 
 #include <algorithm>

@@ -182,7 +182,7 @@ report::ResultTable shimmer_table(const PoppingStudyOptions& options) {
         settings::RunSettings settings = options.settings;
         settings.path.name = std::string(path);
         settings.surface.shadows = false;
-        settings.ground.lod.metric = scene::GroundMetric::ScreenError;
+        settings.ground.lod.metric = terrain::GroundMetric::ScreenError;
         return shimmer_along(settings, ground, static_cast<std::size_t>(options.every), quiet);
     });
     Change all{.path = "all"};
@@ -208,16 +208,16 @@ report::ResultTable shimmer_table(const PoppingStudyOptions& options) {
 
 struct Meshing {
     const char* name;
-    scene::GroundMetric mesh;
+    terrain::GroundMetric mesh;
     bool geomorphs;
     bool near_detail;
 };
 
 /// The last one is measured where near detail is asked for.
-constexpr std::array meshings = {Meshing{"midpoint, exact budget", scene::GroundMetric::Midpoint, false, false},
-    Meshing{"screen-error, no geomorphs", scene::GroundMetric::ScreenError, false, false},
-    Meshing{"screen-error, geomorphs", scene::GroundMetric::ScreenError, true, false},
-    Meshing{"screen-error, geomorphs, near detail", scene::GroundMetric::ScreenError, true, true}};
+constexpr std::array meshings = {Meshing{"midpoint, exact budget", terrain::GroundMetric::Midpoint, false, false},
+    Meshing{"screen-error, no geomorphs", terrain::GroundMetric::ScreenError, false, false},
+    Meshing{"screen-error, geomorphs", terrain::GroundMetric::ScreenError, true, false},
+    Meshing{"screen-error, geomorphs, near detail", terrain::GroundMetric::ScreenError, true, true}};
 
 /// The mesh of a frame, valid until the next call but one.
 using MeshOfFrame = std::function<terrain::GroundMesh(const scene::Camera&)>;
@@ -262,7 +262,7 @@ MeshOfFrame given_ground(
 
 /// The ground of a flight as it is drawn, with detail near the eye in the same budget, but nothing that stands on it.
 MeshOfFrame ground_with_detail(settings::RunSettings settings) {
-    settings.ground.lod.metric = scene::GroundMetric::ScreenError;
+    settings.ground.lod.metric = terrain::GroundMetric::ScreenError;
     settings.ground.scenery = false;
     const std::shared_ptr<visuals::landscape::GroundMesher> mesher =
         world::load_world(settings).scene.ground->mesher(visuals::landscape::mesh_settings(settings, false));
@@ -309,7 +309,7 @@ report::ResultTable popping_table(const PoppingStudyOptions& options) {
     const int asked = scene::triangle_target(options.settings);
     const auto few = world::few_samples_note(options.settings.path.terrain, {samples.columns(), samples.rows()}, asked,
         "--triangles with fewer, or --terrain with a larger map");
-    base::print_note(options.quiet || asked == scene::unlimited_triangles || !few, few.value_or(""));
+    base::print_note(options.quiet || asked == terrain::unlimited_triangles || !few, few.value_or(""));
     std::vector<settings::RunSettings> flown(base::built_in_paths.size(), options.settings);
     std::vector<std::vector<flight::FlightCamera>> cameras;
     std::vector<MeshedPath> cases;

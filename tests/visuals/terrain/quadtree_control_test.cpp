@@ -1,5 +1,5 @@
-#include "visuals/terrain/detail_controller.h"
 #include "visuals/terrain/ground_mesh.h"
+#include "visuals/terrain/quadtree_control.h"
 
 #include <catch2/catch.hpp>
 

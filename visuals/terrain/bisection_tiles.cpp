@@ -1,6 +1,6 @@
 // Access to a ground's numbers by node and by sample.
 
-#include "visuals/terrain/ground_tiles.h"
+#include "visuals/terrain/bisection_tiles.h"
 
 #include "models/heights/height_field.h"
 
@@ -12,8 +12,8 @@
 
 namespace octant::visuals::terrain {
 
-// Computes the offsets of ground_tiles.h. Tiles keep what a mesh looks at together in few pages, so that a mapped file
-// is read in large pieces.
+// Computes the offsets of bisection_tiles.h. Tiles keep what a mesh looks at together in few pages, so that a mapped
+// file is read in large pieces.
 
 namespace {
 

@@ -1,5 +1,5 @@
 // Errors as they are stored, against their definition in plain loops.
-#include "visuals/terrain/ground_builder.h"
+#include "visuals/terrain/bisection_ground_builder.h"
 
 #include <catch2/catch.hpp>
 
@@ -151,12 +151,15 @@ private:
                cross(at[0], at[1], at[2]);
     }
 
-    /// Over every stride-th sample, up to the first ones that are not within the field.
+    /// Over every stride-th sample of the triangle, up to the first ones that are not within the field. Corners of a
+    /// triangle lie at multiples of the stride.
     double of_triangle(const std::array<Point, 3>& at, int stride) const {
+        const auto [min_x, max_x] = std::minmax({at[0].x, at[1].x, at[2].x});
+        const auto [min_y, max_y] = std::minmax({at[0].y, at[1].y, at[2].y});
         const double area = cross(at[0], at[1], at[2]);
         double error = 0.0;
-        for (int y = 0; y < field_.rows() - 1 + stride; y += stride) {
-            for (int x = 0; x < field_.columns() - 1 + stride; x += stride) {
+        for (int y = std::max(min_y, 0); y <= max_y && y < field_.rows() - 1 + stride; y += stride) {
+            for (int x = std::max(min_x, 0); x <= max_x && x < field_.columns() - 1 + stride; x += stride) {
                 const Point p{x, y};
                 const double a = cross(at[1], at[2], p) / area;
                 const double b = cross(at[2], at[0], p) / area;

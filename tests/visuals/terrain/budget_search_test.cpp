@@ -1,5 +1,5 @@
 #include "tests/visuals/terrain/ground_check.h"
-#include "visuals/terrain/step_function.h"
+#include "visuals/terrain/budget_search.h"
 
 #include <catch2/catch.hpp>
 

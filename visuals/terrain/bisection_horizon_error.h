@@ -19,10 +19,10 @@ struct TurnedView {
     double turned_rad = 0.0; ///< Without the widening; at or above zero.
 };
 
-/// The view, turned up or down until its border reaches a band, and widened until it contains the band on the way of
-/// the turn. Looking above the band, what lies 4 degrees below it belongs to it. A view whose border is in the band is
-/// only widened. Nothing where the band is in the picture already, and where the view has no direction or frustum or
-/// looks straight up or down.
+/// The view, turned up or down until its border reaches a band, and widened until it contains the band at all headings
+/// of the turn. For a view above the band, the band begins 4 degrees lower. A view whose border is in the band is only
+/// widened. Nothing where the band is already in the picture, and for a view without direction or frustum, or straight
+/// up or down.
 std::optional<TurnedView> turned_to_band(const MeshView& view, const ElevationBand& band);
 
 /// Finds the error below which a mesh with a budget must not be refined, so that vertices do not jump when the view
@@ -37,8 +37,8 @@ public:
     HorizonError& operator=(HorizonError&&) = delete;
     ~HorizonError() = default;
 
-    /// The target with its error raised to that one, whatever was asked before; unchanged without geomorphs or a
-    /// budget, and where the horizon is in the picture.
+    /// The target with its error raised to that one; earlier calls do not influence it. Unchanged without geomorphs or
+    /// a budget, and where the horizon is in the picture.
     ErrorTarget raise_to_horizon_error(const MeshView& view, const ErrorTarget& target);
 
 private:

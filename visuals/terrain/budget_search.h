@@ -10,9 +10,8 @@
 
 namespace octant::visuals::terrain {
 
-/// A whole number N that changes in steps along a line of values at or above zero: N(x) is the sum of all changes at
-/// places below x. It knows single steps only between two bounds and sums up those below, so that many steps cost
-/// little.
+/// The number of triangles N(x) of a mesh as a function of the limit x >= 0: the sum of all changes at places below x.
+/// Single steps are stored only between two bounds; those below are summed, so that many steps cost little.
 class StepFunction {
 public:
     /// Forgets all steps and sets the bounds, 0 <= low <= high (asserted).
@@ -81,10 +80,10 @@ struct CountSearch {
 /// once there are more than `max_triangles`. It returns whether there are steps above.
 template <typename Walk>
 float find_limit(const CountSearch& search, StepFunction& steps, const Walk& walk) {
-    // How far a walk looks, as factors of the limit. They influence the time only. Below the last limit: single steps
-    // are known from here on.
+    // The range of a walk, as factors of the last limit. They influence the time only. Single steps are stored from
+    // here on.
     constexpr float look_below = 0.7F;
-    constexpr float look_above = 1.08F; // Above the last limit: the walk ends here.
+    constexpr float look_above = 1.08F; // The walk ends here.
     constexpr float step_back = 0.1F;   // After far too many triangles.
     constexpr float min_growth = 1.25F; // After too few triangles.
     constexpr float max_growth = 8.0F;

@@ -1,5 +1,5 @@
 // Read-ahead for mapped grounds: the kernel is asked for all tiles at once, then each is tested as it has come.
-#include "visuals/terrain/ground_prefetcher.h"
+#include "visuals/terrain/bisection_prefetcher.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,7 +10,7 @@ namespace octant::visuals::terrain {
 
 namespace {
 
-/// Tells the kernel what will become of some bytes. The result is ignored: it is advice only.
+/// madvise() for a range of bytes. Its result is ignored, because it is advice only.
 void advise(std::span<const std::byte> bytes, int what) {
     const std::byte* const begin = bytes.data();
     const std::size_t into_page = reinterpret_cast<std::uintptr_t>(begin) % GroundLayout::page_bytes;

@@ -20,7 +20,7 @@
 //   meshes the same view again, with the a of equation (4) for which g = 1. The meshes of one view
 //   are points of one curve N(C), so that their difference tells N'(C), and two on both sides of
 //   the target enclose it.
-#include "visuals/terrain/detail_controller.h"
+#include "visuals/terrain/quadtree_control.h"
 
 #include <algorithm>
 #include <cassert>

@@ -1,6 +1,6 @@
-#include "visuals/terrain/ground_builder.h"
-#include "visuals/terrain/ground_tiles.h"
-#include "visuals/terrain/tile_builder.h"
+#include "visuals/terrain/bisection_ground_builder.h"
+#include "visuals/terrain/bisection_tile_builder.h"
+#include "visuals/terrain/bisection_tiles.h"
 
 #include <catch2/catch.hpp>
 

@@ -1,4 +1,4 @@
-#include "visuals/terrain/ground_builder.h"
+#include "visuals/terrain/bisection_ground_builder.h"
 
 #include <catch2/catch.hpp>
 

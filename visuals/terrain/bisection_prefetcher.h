@@ -1,6 +1,6 @@
 #pragma once
 
-#include "visuals/terrain/ground_tiles.h"
+#include "visuals/terrain/bisection_tiles.h"
 
 #include <glm/vec2.hpp>
 
@@ -12,11 +12,11 @@
 
 namespace octant::visuals::terrain {
 
-/// Fetches from the disk, on a thread of its own, the tiles around a place before they are needed, and has the ground's
-/// validator check them, so that drawing seldom waits for either.
+/// Reads the tiles around a point from the disk in advance, on a thread of its own, and validates them, so that drawing
+/// seldom waits for either.
 class GroundPrefetcher {
 public:
-    /// On every level tiles are asked for up to this many nodes away from the place.
+    /// The distance up to which tiles are read on every level, in nodes.
     static constexpr int reach_nodes = 64;
 
     /// The ground must outlive the prefetcher.
@@ -27,8 +27,8 @@ public:
     GroundPrefetcher(GroundPrefetcher&&) = delete;
     GroundPrefetcher& operator=(GroundPrefetcher&&) = delete;
 
-    /// Tells where tiles are wanted next, in world axes, within the field or not. Returns at once; an earlier place
-    /// that was not dealt with yet is forgotten. Tiles that were asked for at the last place are not asked for again.
+    /// Requests the tiles around a point in world axes, inside the field or not. Returns at once; replaces an earlier
+    /// request that has not begun. Tiles of the last request are not read again.
     void prefetch_around(glm::dvec2 place_m);
 
 private:
@@ -45,7 +45,7 @@ private:
     Window window_around(const GroundLayout::Level& at, glm::dvec2 place_m) const;
 
     const GroundTiles& ground_;
-    std::vector<Window> requested_windows_; ///< For each level what was asked for last.
+    std::vector<Window> requested_windows_; ///< For each level the tiles of the last request.
     std::mutex mutex_;
     std::condition_variable_any wake_;
     std::optional<glm::dvec2> requested_m_;

@@ -18,7 +18,7 @@
 
 namespace octant::visuals::terrain {
 
-/// What the one-byte codes of a ground's errors mean, in metres: 0 for code 0 and ascending. An error's code is the
+/// The one-byte codes of a ground's errors, as a table of metres: 0 for code 0 and ascending. An error's code is the
 /// smallest whose metres are at or above it.
 class ErrorCodes {
 public:
@@ -51,10 +51,10 @@ enum class NodePart : std::uint8_t {
 };
 
 /// Which of a sample's two errors: Full includes the margin in which a vertex moves slowly while the target error
-/// changes from frame to frame; None has no margin (tile_builder.cpp).
+/// changes from frame to frame; None has no margin (bisection_tile_builder.cpp).
 enum class MorphMargin : std::uint8_t { Full, None };
 
-/// The size of a ground and what its numbers mean.
+/// The size of a ground, and the units of its numbers.
 struct GroundShape {
     int columns = 0; ///< Samples from west to east, 2 to 65,536.
     int rows = 0;    ///< Samples from south to north, 2 to 65,536.
@@ -73,7 +73,7 @@ struct HeightRange {
     std::int16_t highest = 0;
 };
 
-/// What the codes of a ground's errors mean.
+/// The error codes of a ground of this shape.
 ErrorCodes codes_of(const GroundShape& shape);
 
 /// The offset of each number of a ground in one block of memory. It is the same in a file and in RAM.
@@ -308,14 +308,6 @@ public:
     /// The upper bound, for the same levels.
     float highest_m(int level, int column, int row) const { return height_of(range(level, column, row).highest); }
 
-    /// The height as it is stored; arguments as for height_m.
-    std::int16_t stored_height(int level, NodePart part, int column, int row) const {
-        const GroundLayout::Level& at = layout_.level(level);
-        if (row == at.rows) { return heights_at(at.north_heights)[column]; }
-        if (column == at.columns) { return heights_at(at.east_heights)[row]; }
-        return *heights_at(valid_tile(level, column, row) + at.height_offset(part, at.node_in_tile(column, row)));
-    }
-
     /// The height of any sample (asserted to be one).
     float height_m(int column, int row) const;
 
@@ -326,6 +318,14 @@ public:
     std::optional<double> height_at(double x_m, double y_m) const;
 
 private:
+    /// The height as it is stored; arguments as for height_m.
+    std::int16_t stored_height(int level, NodePart part, int column, int row) const {
+        const GroundLayout::Level& at = layout_.level(level);
+        if (row == at.rows) { return heights_at(at.north_heights)[column]; }
+        if (column == at.columns) { return heights_at(at.east_heights)[row]; }
+        return *heights_at(valid_tile(level, column, row) + at.height_offset(part, at.node_in_tile(column, row)));
+    }
+
     float height_of(std::int16_t stored) const {
         return static_cast<float>(base_m_ + unit_m_ * static_cast<double>(stored));
     }

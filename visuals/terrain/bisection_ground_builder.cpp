@@ -1,6 +1,6 @@
 // Builds a ground in memory from a height field that is in memory: for made ground and small files. Large files are
 // imported into a mapped file instead (ground_import.cpp), by the same GroundAssembler.
-#include "visuals/terrain/ground_builder.h"
+#include "visuals/terrain/bisection_ground_builder.h"
 
 #include "sim/base/thread_pool.h"
 

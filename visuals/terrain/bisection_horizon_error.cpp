@@ -4,7 +4,7 @@
 // down steeply has none of them and could spend all of its budget on near ground: at a fifth of the error over rugged
 // ground. When it is pulled up, all of the horizon comes into the picture within a few degrees, and the error that
 // keeps the budget is five times larger a few frames later. Vertices move S pixels for a pixel of that change
-// (tile_builder.cpp).
+// (bisection_tile_builder.cpp).
 //
 // So the error of such a view is kept at or above that of the same view turned until its border reaches the band of far
 // ground, less a share of how far the picture moves in that turn. The band is not turned to but added: the frustum of
@@ -12,11 +12,11 @@
 // error is no less than that of any view on the way through the band, where the error that keeps the budget has its
 // peak at a place that only the ground knows. It becomes the view's own error, without a step, where the band is in the
 // picture. What a turn does to a vertex stays below S times that share of what it does to the picture.
-#include "visuals/terrain/horizon_error.h"
+#include "visuals/terrain/bisection_horizon_error.h"
 
 #include "sim/base/units.h"
+#include "visuals/terrain/bisection_tile_builder.h"
 #include "visuals/terrain/frustum.h"
-#include "visuals/terrain/tile_builder.h"
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
@@ -140,7 +140,7 @@ HorizonError::HorizonError(const GroundTiles& ground)
                     static_cast<double>(far_morph_rate_on(ground.metadata().highest_m - ground.metadata().lowest_m))) {}
 
 ErrorTarget HorizonError::raise_to_horizon_error(const MeshView& view, const ErrorTarget& target) {
-    if (!target.geomorphs || target.max_triangles >= any_triangles) { return target; }
+    if (!target.geomorphs || target.max_triangles >= unlimited_triangles) { return target; }
     const auto there = turned_to_band(view, far_ground(view));
     if (!there) { return target; }
     criterion_.set_view(there->view);

@@ -12,8 +12,7 @@ struct CountSample {
     double triangles = 0.0;  ///< N
 };
 
-/// All that the control of the resolution C carries from one frame to the next. A plain value, so that a run can be
-/// replayed.
+/// The state of the control of C from one frame to the next. A plain value, so that a run can be repeated.
 struct ControlState {
     double resolution = 16.0;    ///< C for the next mesh.
     double last_triangles = 0.0; ///< N of the last mesh; 0 before the first.

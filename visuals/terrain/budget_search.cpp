@@ -1,6 +1,6 @@
 // Finds where a staircase first exceeds a limit without sorting all of its steps: a histogram tells the bin in which it
 // may happen, and only the steps of that bin are sorted.
-#include "visuals/terrain/step_function.h"
+#include "visuals/terrain/budget_search.h"
 
 #include <algorithm>
 #include <bit>

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "models/heights/height_field.h"
-#include "visuals/terrain/ground_tiles.h"
-#include "visuals/terrain/tile_builder.h"
+#include "visuals/terrain/bisection_tile_builder.h"
+#include "visuals/terrain/bisection_tiles.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -24,7 +24,7 @@ std::int16_t stored_number(float height_m, const GroundShape& shape);
 /// whole metres in either form, so that both make the same ground.
 StoredHeights stored_heights(std::span<const std::int16_t> numbers, const GroundShape& shape, bool has_integer_metres);
 
-/// What the numbers themselves tell about a ground.
+/// Statistics of the heights of a ground.
 struct HeightStatistics {
     float lowest_m = 0.0F;
     float highest_m = 0.0F;
@@ -39,7 +39,7 @@ public:
     /// threads, once for each tile. When it returns, the tile must be readable in `memory`.
     using TileSink = std::function<void(std::size_t index, std::size_t offset, std::span<const std::byte> bytes)>;
 
-    /// `memory` has layout.total_bytes(); what lies before the tiles is written into it. All arguments but the shape
+    /// `memory` has layout.total_bytes(); all of it but the tiles is written by this class. All arguments but the shape
     /// must outlive the assembly.
     GroundAssembler(const GroundShape& shape, const GroundLayout& layout, const StoredHeights& heights,
         std::span<std::byte> memory, int threads);

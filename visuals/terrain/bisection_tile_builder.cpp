@@ -1,6 +1,6 @@
 // Builds the tiles of a ground: heights, then saturated errors. First the errors of single diamonds, then the tile,
 // then the saturation.
-#include "visuals/terrain/tile_builder.h"
+#include "visuals/terrain/bisection_tile_builder.h"
 
 #include <algorithm>
 #include <array>
@@ -264,7 +264,8 @@ double error_of_triangle(const StoredHeights& heights, std::array<TriangleVertex
 /// they are the hypotenuses of diamonds half as wide. Exact.
 void diamond_errors(const DiamondRow& row, Diamond diamond, float* errors) { run_kernel(row, diamond, false, errors); }
 
-/// The same for a row of nodes whose diagonals alternate, starting with `first` (Rising or Falling).
+/// The errors, as of diamond_errors, of a row of nodes whose diagonals alternate, starting with `first` (Rising or
+/// Falling).
 void node_errors(const DiamondRow& row, Diamond first, float* errors) {
     assert(first == Diamond::Rising || first == Diamond::Falling);
     run_kernel(row, first, true, errors);
@@ -278,9 +279,9 @@ struct DiamondPosition {
     int stride = 1;
 };
 
-/// The same for a single diamond anywhere in the padded square (StoredHeights::padded_number), legs included. Samples
-/// beyond the field do not count, except the next ones `stride` apart. Triangles beyond the field's south and west
-/// sides do not count.
+/// The error of a single diamond, as of diamond_errors, anywhere in the padded square (StoredHeights::padded_number),
+/// legs included. Samples beyond the field do not count, except the next ones `stride` apart. Triangles beyond the
+/// field's south and west sides do not count.
 float padded_error(const StoredHeights& heights, const DiamondPosition& place, Diamond diamond) {
     using Step = std::array<int, 2>;
     // For each kind of diamond the directions from the middle to both ends of the hypotenuse and then to both apexes.
@@ -497,15 +498,15 @@ void TileBuilder::write_strips() {
 //   that of the nodes five levels below: no sample between can lie farther off.
 // - Where leaving a sample out moves the ground by d, its error is at least that of the samples
 //   that need it and d / S more, so that it has the time to move into its place before they appear
-//   (bisection_mesher.cpp). S is how far a vertex may move, in target errors, while its distance
-//   shrinks by a small share of itself, divided by that share. A larger error moves at a larger
-//   distance, of which the eye's way is a smaller share: S grows with the least error that the
-//   sample can get, up to where the target error's own changes count, which are alike at all
-//   distances. With the same triangles the target error grows with the ground's relief: S shrinks.
+//   (bisection_mesher.cpp). S = |d offset / d ln(distance)| / target error: the speed at which a
+//   vertex may move. A vertex with a larger error moves at a larger distance, of which the eye's
+//   motion is a smaller share. Therefore S grows with the smallest error that the sample can get, up
+//   to where the target error's own changes count, which are equal at all distances. With the same
+//   number of triangles the target error grows with the ground's relief, and S shrinks.
 // - Errors are stored with this margin and without it. Where the target error E stays as it is from
 //   frame to frame, vertices may move farther in target errors the smaller E is, up to S E0 pixels:
 //   d E / (S E0) is enough, and errors between the two stored ones are nested as they are
-//   (full_margin_px in bisection_mesher.h).
+//   (full_margin_px in bisection_selection.h).
 
 namespace {
 
@@ -523,9 +524,9 @@ constexpr float near_error = 0.6F / 512.0F;
 /// How many times larger S is than on rugged ground.
 float flatness_factor(float relief_m) { return std::clamp(rugged_m / relief_m, 1.0F, max_flatness_factor); }
 
-/// Raises a row of codes to others.
-void raise(std::span<const std::uint8_t> least, std::uint8_t* codes) {
-    for (std::size_t i = 0; i < least.size(); ++i) { codes[i] = std::max(codes[i], least[i]); }
+/// Raises each code of a row to at least that of another row.
+void raise(std::span<const std::uint8_t> others, std::uint8_t* codes) {
+    for (std::size_t i = 0; i < others.size(); ++i) { codes[i] = std::max(codes[i], others[i]); }
 }
 
 } // namespace

@@ -181,7 +181,7 @@ TEST_CASE("where the horizon is in the picture, or the error alone decides, noth
     const ErrorTarget budget{0.01, 2000, true};
     CHECK(horizon.raise_to_horizon_error(pitched(-10.0), budget) == budget);
     CHECK(horizon.raise_to_horizon_error(pitched(-60.0), budget).error_px > 0.01);
-    const ErrorTarget alone{1.0, any_triangles, true};
+    const ErrorTarget alone{1.0, unlimited_triangles, true};
     CHECK(horizon.raise_to_horizon_error(pitched(-60.0), alone) == alone);
     const ErrorTarget rigid{0.01, 2000, false};
     CHECK(horizon.raise_to_horizon_error(pitched(-60.0), rigid) == rigid);

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "visuals/terrain/ground_tiles.h"
+#include "visuals/terrain/bisection_tiles.h"
 
 #include <algorithm>
 #include <array>
@@ -52,8 +52,7 @@ private:
     std::vector<std::uint8_t> codes_;
 };
 
-/// A field's heights as whole numbers, row after row from the south; what a ground is built from. The ground stores
-/// number * multiplier + addend.
+/// A field's heights as whole numbers, row after row from the south. The ground stores number * multiplier + addend.
 struct StoredHeights {
     std::span<const std::int16_t> numbers;
     int columns = 0;
@@ -111,8 +110,8 @@ struct TileIndex {
     int row = 0;
 };
 
-/// The largest S of ground with this relief. S = |d offset / d ln(target error)| / target error, where the offset is
-/// how far a vertex is from its sample; tile_builder.cpp derives it.
+/// The largest S of ground with this relief. S = |d offset / d ln(distance)| / target error, where the offset is
+/// how far a vertex is from its sample; bisection_tile_builder.cpp derives it.
 float far_morph_rate_on(float relief_m);
 
 /// Makes tiles one by one, heights and saturated errors, each after all tiles of the next finer level around it. There
@@ -192,7 +191,7 @@ private:
     const ErrorEncoder& coder_;
     std::span<std::byte> memory_;
     int level_ = 0;
-    /// S (tile_builder.cpp) near the eye, and its maximum far off.
+    /// S (bisection_tile_builder.cpp) near the eye, and its maximum far off.
     float near_morph_rate_ = 0.0F;
     float far_morph_rate_ = 0.0F;
     float inverse_far_morph_rate_ = 0.0F; ///< 1 / far_morph_rate_
