@@ -9,6 +9,8 @@
 #include <cstring>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <map>
+#include <mutex>
 #include <utility>
 #include <vector>
 
@@ -92,8 +94,16 @@ fs::path user_folder(const char* variable, const char* below_home) {
     return home == nullptr || *home == '\0' ? fs::path() : fs::path(home) / below_home / "octant";
 }
 
-/// Folders and the names that messages show in their place.
-std::vector<std::pair<std::string, std::string>> path_aliases;
+/// The names of all PathAlias that live, by their folders.
+struct PathAliases {
+    std::mutex mutex;
+    std::map<std::string, std::string> names;
+};
+
+PathAliases& path_aliases() {
+    static PathAliases aliases;
+    return aliases;
+}
 
 } // namespace
 
@@ -116,12 +126,19 @@ TemporaryFolder::~TemporaryFolder() {
     fs::remove_all(path_, ignored);
 }
 
-void set_path_alias(const fs::path& folder, const std::string& name) {
-    path_aliases.emplace_back(folder.string(), name);
+PathAlias::PathAlias(const fs::path& folder, std::string name) : folder_(folder.string()) {
+    const std::lock_guard lock(path_aliases().mutex);
+    path_aliases().names.insert_or_assign(folder_, std::move(name));
+}
+
+PathAlias::~PathAlias() {
+    const std::lock_guard lock(path_aliases().mutex);
+    path_aliases().names.erase(folder_);
 }
 
 std::string with_path_aliases(std::string text) {
-    for (const auto& [folder, name] : path_aliases) {
+    const std::lock_guard lock(path_aliases().mutex);
+    for (const auto& [folder, name] : path_aliases().names) {
         for (std::size_t at = text.find(folder); at != std::string::npos; at = text.find(folder, at + name.size())) {
             text.replace(at, folder.size(), name);
         }

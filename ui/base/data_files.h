@@ -1,6 +1,7 @@
 #pragma once
 
 #include "sim/aircraft_kind.h"
+#include "sim/base/error.h"
 
 #include <algorithm>
 #include <array>
@@ -64,11 +65,30 @@ private:
     std::filesystem::path path_;
 };
 
-/// Sets the name that messages show in place of `folder` and of the paths below it. A packed recording is unpacked into
-/// a temporary folder; messages then name the packed file that the user gave.
-void set_path_alias(const std::filesystem::path& folder, const std::string& name);
+/// As long as it lives, messages show `name` in place of `folder` and of the paths below it. A packed recording is
+/// unpacked into a temporary folder; messages then name the packed file that the user gave.
+class PathAlias {
+public:
+    PathAlias(const std::filesystem::path& folder, std::string name);
+    ~PathAlias();
+    PathAlias(const PathAlias&) = delete;
+    PathAlias& operator=(const PathAlias&) = delete;
+    PathAlias(PathAlias&&) = delete;
+    PathAlias& operator=(PathAlias&&) = delete;
+
+private:
+    std::string folder_;
+};
 
 /// `text` with each aliased folder replaced by its name.
 std::string with_path_aliases(std::string text);
+
+/// Calls `function`; an Error that it throws goes on with_path_aliases(), which may be gone where it is caught.
+template <class Function>
+auto with_named_errors(const Function& function) {
+    try {
+        return function();
+    } catch (const Error& fault) { throw Error(with_path_aliases(fault.what())); }
+}
 
 } // namespace octant::ui::base

@@ -46,7 +46,7 @@ private:
     Clock::time_point last_shown_;
 };
 
-/// One line on stderr, unless quiet, with the names of set_path_alias().
+/// One line on stderr, unless quiet, with_path_aliases().
 void print_note(bool quiet, const std::string& line);
 
 } // namespace octant::ui::base

@@ -524,8 +524,7 @@ constexpr int exit_check_failed = 1;
 constexpr int exit_invalid_input = 2;
 
 int print_error(const std::string& program, const std::string& line) {
-    const std::string named = base::with_path_aliases(line);
-    std::fputs(fmt::format("{}: {}\n", program, one_line(named)).c_str(), stderr);
+    std::fputs(fmt::format("{}: {}\n", program, one_line(line)).c_str(), stderr);
     return exit_invalid_input;
 }
 
@@ -533,8 +532,8 @@ int print_error(const std::string& program, const std::string& line) {
 int run_command(const Program& program, int argument_count, const char* const* arguments) {
     int code = 0;
     try {
-        const std::function<void()> command = parse_command_line(program, argument_count, arguments);
-        command();
+        // While owners of unpacked recordings live.
+        base::with_named_errors([&] { parse_command_line(program, argument_count, arguments)(); });
     } catch (const CheckFailed&) { code = exit_check_failed; } catch (const base::StoppedBySignal&) {
         return code; // exit_by_received_signal() ends the program by the signal
     }
@@ -556,7 +555,6 @@ int run_program(const char* name, Program (*make_program)(), int argument_count,
     std::signal(SIGCHLD, SIG_DFL); // child programs are waited for
     try {
         const int code = run_command(make_program(), argument_count, arguments);
-        report::remove_unpacked();
         base::exit_by_received_signal();
         return code;
     } catch (const std::bad_alloc&) {

@@ -6,7 +6,7 @@
 #include "ui/commands/commands.h"
 #include "ui/flight/flight_loop.h"
 #include "ui/flight/flight_recorder.h"
-#include "ui/flight/packet_replay.h"
+#include "ui/flight/replay.h"
 #include "ui/flight/sender.h"
 #include "ui/flight/session.h"
 #include "ui/report/packed_recording.h"
@@ -37,6 +37,7 @@ namespace {
 struct FlyOptions : base::OutputOptions {
     settings::RunSettings settings;
     flight::RecordOptions record;
+    report::RecordingFolder replayed;
     std::optional<flight::Replay> replay;
     std::vector<std::string> send;  ///< to whom
     std::vector<std::string> given; ///< names of the setting options on the command line
@@ -152,7 +153,8 @@ std::vector<Option> options_of(FlyOptions& options) {
                     "if not",
                 .read =
                     [&options, replay_notes](const Words& words) {
-                        const std::filesystem::path folder = report::recording_folder(words.front());
+                        options.replayed = report::open_recording(words.front());
+                        const std::filesystem::path& folder = options.replayed.path;
                         options.replay = flight::read_replay(folder);
                         options.record.replay_of = folder;
                         options.settings = settings::read_settings(folder / "run.json", replay_notes.get());

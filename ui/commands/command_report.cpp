@@ -46,7 +46,7 @@ void make_report(const ReportOptions& options) {
     if (gate && options.folders.size() < 2) { throw Error("--gate: expected two recordings or more, got one"); }
     std::vector<report::LoadedRecording> recordings;
     for (const std::string& folder : options.folders) {
-        recordings.push_back(report::load_recording(report::recording_folder(folder)));
+        recordings.push_back(report::load_recording(folder));
         if (recordings.back().ended_early) {
             base::print_note(options.quiet,
                 fmt::format("note: {} ended early, after {} frames", folder, recordings.back().flight.frames()));

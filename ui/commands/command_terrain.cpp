@@ -22,7 +22,7 @@
 #include "ui/terrain/mesh_maker.h"
 #include "ui/terrain/terrain_check.h"
 #include "ui/terrain/terrain_query.h"
-#include "ui/world/scene_ground.h"
+#include "ui/world/height_loader.h"
 #include "visuals/groundfile/ground_file.h"
 #include "visuals/groundfile/ground_import.h"
 #include "visuals/terrain/ground_query.h"

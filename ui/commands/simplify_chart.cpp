@@ -53,10 +53,9 @@ std::string chart_page(const std::string& mesh, const Levels& levels, double dia
     const report::Plot plot = plot_of(levels);
     std::string html = report::page_head("Faces against error of " + mesh, "octant simplify --chart");
     if (!plot.series.front().x.empty()) {
-        html += "<div class=\"card\">\n" + report::page_plot(plot, report::PlotWidth::FullWidth) + "</div>\n";
+        html += report::card_html(report::page_plot(plot, report::PlotWidth::FullWidth));
     }
-    return html + "<div class=\"card\">\n" + report::html_of(table_of(levels, diagonal_m)) + "</div>\n" +
-           report::page_end();
+    return html + report::card_html(report::html_of(table_of(levels, diagonal_m))) + report::page_end();
 }
 
 namespace {

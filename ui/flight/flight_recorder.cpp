@@ -9,7 +9,6 @@
 #include "ui/base/json_value.h"
 #include "ui/base/stopwatch.h"
 #include "ui/base/version.h"
-#include "ui/report/frame_csv.h"
 #include "ui/report/html_report.h"
 #include "ui/report/loaded_recording.h"
 #include "ui/report/run_file.h"
@@ -18,7 +17,6 @@
 #include "visuals/groundfile/ground_file.h"
 
 #include <algorithm>
-#include <array>
 #include <chrono>
 #include <cmath>
 #include <fmt/format.h>
@@ -216,7 +214,7 @@ report::PixelView pixel_view_of(const visuals::scene::Picture& picture) {
 
 report::RunInfo run_info(
     const settings::RunSettings& settings, const Session& session, const std::filesystem::path& folder) {
-    const world::Flight& flight = session.world().flight;
+    const world::PlacedFlight& flight = session.world().flight;
     report::RunInfo info;
     info.title = flight.title;
     info.settings_json = settings::settings_json(world::settings_in_recording(settings, folder)).dump(2);
@@ -336,68 +334,6 @@ FlightResult FlightRecorder::finish(const Session& session, const std::string& s
         end.statistics = times_.statistics();
     }
     return end;
-}
-
-namespace {
-
-/// More than any control asks for.
-constexpr int max_triangles = 100000000;
-
-std::string hash_verdict(const Replay& replay, const std::string& recorded, const std::string& now) {
-    if (!replay.ended) { return "unknown"; }
-    return recorded == now ? "same" : "other";
-}
-
-} // namespace
-
-Replay read_replay(const std::filesystem::path& folder) {
-    constexpr std::array<std::string_view, 1> target_columns{"triangle_target"};
-    const report::RunFile run = report::read_run_file(folder / "run.json");
-    const auto file = folder / "frames.csv";
-    const report::FrameFile rows = report::read_frame_csv(file, target_columns);
-    if (rows.records.empty()) { throw_error_in(file, "expected the rows of a flight, got none"); }
-    const bool in_a_window =
-        std::ranges::any_of(run.facts, [](const auto& fact) { return fact.first == report::window_fact; });
-    if (in_a_window) {
-        throw_error_in(folder / "run.json",
-            "expected a recording of octant fly, got one of a window, whose pictures follow the "
-            "clock; --settings with this file repeats its flight");
-    }
-    Replay replay{folder, {}, run.ended, run.state_hash, run.picture_hash};
-    for (const report::FrameRecord& row : rows.records) {
-        const auto frame = static_cast<int>(replay.quality_targets.size());
-        if (row.frame != frame) {
-            throw_error_at(file, frame + 2, fmt::format("expected frame {}, got {}", frame, row.frame));
-        }
-        if (row.triangle_target < 1 || row.triangle_target > max_triangles) {
-            throw_error_at(file, frame + 2,
-                fmt::format("expected a triangle_target from 1 to {}, got {}", max_triangles, row.triangle_target));
-        }
-        replay.quality_targets.push_back(
-            {row.triangle_target, row.smooth_target < 0 ? std::nullopt : std::optional(row.smooth_target)});
-    }
-    return replay;
-}
-
-void check_frames(const Replay& replay, int frames) {
-    const auto rows = static_cast<int>(replay.quality_targets.size());
-    if (rows > frames) {
-        throw_error_at(replay.folder / "frames.csv", frames + 2,
-            fmt::format("expected at most the {} frames of this flight, got {}", frames, rows));
-    }
-}
-
-ReplayComparison compare_with_recording(const Replay& replay, std::uint64_t state_hash, std::uint64_t picture_hash) {
-    ReplayComparison verdict;
-    verdict.state_hash = hash_verdict(replay, replay.state_hash, fmt::format("{:016x}", state_hash));
-    verdict.picture_hash = hash_verdict(replay, replay.picture_hash, fmt::format("{:016x}", picture_hash));
-    verdict.is_same = verdict.state_hash == "same" && verdict.picture_hash == "same";
-    const std::string name = base::with_path_aliases(replay.folder.string());
-    verdict.line = replay.ended
-                       ? fmt::format("{} states, {} pictures as {}", verdict.state_hash, verdict.picture_hash, name)
-                       : fmt::format("nothing to compare with: {} was cut short after {} frames and has no hashes",
-                             name, replay.quality_targets.size());
-    return verdict;
 }
 
 } // namespace octant::ui::flight

@@ -19,12 +19,12 @@
 
 namespace octant::ui::flight {
 
-/// Writes track.csv and track.acmi of a flight that left the world's path into a folder: `flight` holds its samples,
-/// `frame` says how the world lies on the earth, null where that is not known. Throws Error.
+/// Writes track.csv and track.acmi into a folder for a flight that left the world's path: `flight` holds its samples,
+/// `frame` is the world's place on the earth, null if unknown. Throws Error.
 void write_tracks(const std::filesystem::path& folder, const world::World& world, const sim::Trajectory& flight,
     const EarthFrame* frame);
 
-/// What is kept of a flight.
+/// Files that a flight leaves.
 struct RecordOptions {
     std::optional<std::filesystem::path> folder;
     std::optional<std::filesystem::path> video;
@@ -55,7 +55,7 @@ bool is_already_recorded(const RecordOptions& options, const settings::RunSettin
 report::RunInfo run_info(
     const settings::RunSettings& settings, const Session& session, const std::filesystem::path& folder);
 
-/// Makes a folder's report.html anew; gives a line that says where it is. Throws Error.
+/// Writes report.html of a recording's folder. Returns a note with its path. Throws Error.
 std::string write_report(const std::filesystem::path& folder);
 
 /// A picture as the report's files take it; refers to it.
@@ -91,38 +91,5 @@ private:
     report::FrameTimeHistogram times_;
     double flown_until_s_ = 0.0;
 };
-
-/// A recording to repeat frame by frame: targets and hashes read from it.
-struct Replay {
-    std::filesystem::path folder;
-    /// By frame, at least one.
-    std::vector<QualityTargets> quality_targets;
-    /// False where it was killed and has no hashes.
-    bool ended = false;
-    /// Sixteen hex digits.
-    std::string state_hash;
-    std::string picture_hash;
-};
-
-/// Reads run.json and frames.csv of a recording, a killed one too; its settings are for read_settings(). Throws Error
-/// with file and line for rows that are damaged, missing among others or without a triangle target.
-Replay read_replay(const std::filesystem::path& folder);
-
-/// Throws Error when the recording has more rows than its settings make frames.
-void check_frames(const Replay& replay, int frames);
-
-/// How a replay compares with its recording.
-struct ReplayComparison {
-    /// "same", "other" or "unknown" (the recording was killed).
-    std::string state_hash;
-    /// "same", "other" or "unknown", as state_hash.
-    std::string picture_hash;
-    /// Whether both hashes are known to be the same.
-    bool is_same = false;
-    /// All of it for people.
-    std::string line;
-};
-
-ReplayComparison compare_with_recording(const Replay& replay, std::uint64_t state_hash, std::uint64_t picture_hash);
 
 } // namespace octant::ui::flight

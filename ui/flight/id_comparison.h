@@ -65,8 +65,8 @@ ComparisonWorlds load_comparison_worlds(const settings::RunSettings& settings);
 /// Draws every `every`th frame of a run as polygon numbers, with the settings' way of removing hidden surfaces and with
 /// the depth buffer, and compares. Renderers round corners to 1/256 pixel, so that along an edge either of two polygons
 /// may be seen, and a tip be lost: where a number is missing, the reference is drawn again three times as large.
-/// Shadows are left out. `worlds` are those of the settings, but for the view's. `on_frame` is told of each frame that
-/// was compared and of how many there are. Throws Error.
+/// Shadows are left out. `worlds` are those of the settings, the view apart. `on_frame` is called after each frame with
+/// the numbers of frames that were compared and that there are. Throws Error.
 IdComparison compare_with_depth_buffer(const settings::RunSettings& settings, const ComparisonWorlds& worlds, int every,
     const std::function<void(int compared, int frames)>& on_frame);
 

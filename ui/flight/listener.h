@@ -107,8 +107,8 @@ struct ListenerOptions {
     LiveOptions live;
 };
 
-/// Lets packets fly a session, picture by picture, and writes into its pictures what is waited for, what comes from
-/// whom, and what is wrong with it.
+/// Flies a session by packets, picture by picture. Writes into its pictures which packets it waits for, which senders
+/// it hears, and their faults.
 class Listener {
 public:
     /// Opens the ports. Throws Error.
@@ -118,11 +118,11 @@ public:
     /// session must not draw without this any more.
     void attach(Session& session);
 
-    /// From now on keeps what repeats the flight in this folder. Throws Error.
+    /// From now on writes packets.bin, which repeats the flight, into this folder. Throws Error.
     void start_packet_recording(const std::filesystem::path& folder);
 
-    /// Takes what has come up to now; in steps, up to the next packet that moves something. Returns the time for which
-    /// the next picture is to be drawn; in steps nothing where there is none yet. Throws Error (disk full).
+    /// Takes the packets received up to now; in steps, up to the next packet that moves something. Returns the time of
+    /// the next picture; in steps nothing if no packet moved anything. Throws Error (disk full).
     std::optional<double> take(Session& session);
 
     /// Completes the record of the picture that was drawn after take(), and tells hosts of CIGI that it is there, with
@@ -136,19 +136,19 @@ public:
     /// Ends the recording, if there is one. Throws Error (disk full).
     void finish();
 
-    /// Gives up the recording, if there is one; what it has written so far stays.
+    /// Ends the recording, if there is one, without an error; the file so far stays.
     void drop_recording() { writer_.reset(); }
 
     double now_s() const { return input_.now_s(); }
 
-    /// Nothing can come any more, and all that came was taken.
+    /// No packet can come any more, and all that came were taken.
     bool has_ended() const { return pending_.empty() && input_.has_ended(); }
 
-    /// What a person should be told who reads along: what is waited for, each sender and fault when it first comes, and
-    /// how things stand every ten seconds. After take().
+    /// Messages for the user since the last call: what is waited for, each sender and fault when it first comes, and a
+    /// summary every ten seconds. To be called after take().
     std::vector<std::string> take_new_messages();
 
-    /// What is waited for, and what comes.
+    /// What is waited for and what comes, as the pictures show it.
     std::vector<std::string> lines() const;
 
     const LiveFlight& live() const { return *live_; }
@@ -163,7 +163,7 @@ private:
     std::optional<PacketWriter> writer_;
     std::deque<sim::links::Datagram> pending_;
     double overlay_at_s_ = 0.0;
-    /// Nothing = nothing has been told yet.
+    /// When the last summary was made; nothing before the first.
     std::optional<double> reported_at_s_;
     double hosts_contacted_at_s_ = 0.0;
     std::uint32_t cigi_frames_ = 0;

@@ -48,7 +48,7 @@ public:
 
     sim::links::WorldPosition world_position(const sim::links::VehicleKey& key, const sim::links::Fix& fix);
 
-    /// How the world lies on the earth; null until that is known.
+    /// The world's axes on the earth; null until they are known.
     const EarthFrame* frame() const { return assigned_frame_ ? &*assigned_frame_ : world_.ground.frame.get(); }
 
     /// Where the world's origin lies on the earth; nothing until that is known.
@@ -58,7 +58,7 @@ public:
 
     LiveHeightMode height() const { return height_; }
 
-    /// What a person should be told, a line each; those of the newest fix.
+    /// Messages for the user about the newest fix, a line each.
     std::vector<std::string> lines() const;
 
 private:
@@ -96,7 +96,7 @@ private:
 };
 
 /// Air as a host of CIGI has it: its visibility, from 50 m to 500 km, and the time of day at that longitude by its
-/// universal time; what it has not told as in `defaults`. Without a place its time is taken as the sun's own.
+/// universal time; all else as in `defaults`. Without a place its time is taken as local solar time.
 visuals::scene::AirSettings air_from_cigi(visuals::scene::AirSettings defaults,
     const std::optional<sim::links::CigiAtmosphere>& atmosphere,
     const std::optional<sim::links::CigiCelestial>& celestial, const std::optional<GeoPosition>& place);
@@ -108,7 +108,7 @@ enum class LiveChannel { Left, Front, Right };
 struct LiveOptions {
     double delay_s = 0.0;
     std::optional<LiveHeightMode> height;
-    /// Each packet that moves something is one picture, of what it says and no more.
+    /// One picture for each packet that moves something, of the state in that packet.
     bool step = false;
     LiveChannel channel = LiveChannel::Front;
     /// Which of a CIGI host's views is shown; nothing: the one of the lowest number.
@@ -131,14 +131,14 @@ public:
 
     void states_at(double time_s, std::span<sim::AircraftState> states) override;
 
-    /// What a person should be told, a line each.
+    /// Messages for the user, a line each.
     std::vector<std::string> lines() const;
 
     /// Fills in what came since the last frame that was filled in. `finished_s` is when its picture was finished, on
     /// the clock of the packets.
     void fill_in(report::FrameRecord& record, double finished_s);
 
-    /// What was told for the first time since the last call.
+    /// Those messages that are new since the last call.
     std::vector<std::string> take_new_messages() { return traffic_.take_new_messages(); }
 
     bool is_flown(std::size_t aircraft) const override;
@@ -153,12 +153,12 @@ public:
     visuals::scene::Camera camera(std::size_t view, std::span<const sim::AircraftState> states,
         const visuals::scene::Camera& default_camera, double aspect) const override;
 
-    std::span<const visuals::planning::ArticulatedPart> turned_parts() const override { return turned_; }
+    std::span<const visuals::planning::ArticulatedPart> articulated_parts() const override { return turned_; }
 
-    /// Tells it the width over height of the pictures to come.
+    /// Sets width over height of the pictures to come.
     void set_aspect(double aspect) { aspect_ = aspect; }
 
-    /// These settings of the air with what a CIGI host has told of it.
+    /// `own` with the air that a CIGI host has sent.
     visuals::scene::AirSettings air_of(const visuals::scene::AirSettings& own) const;
 
     /// Whether each packet that moves something is one picture.

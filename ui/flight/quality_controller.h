@@ -33,8 +33,7 @@ struct StressSettings {
     /// The share of the target that it may lose from frame to frame.
     double max_fall = 0.02;
     double max_rise = 0.005;
-    /// The target rises only while at least this share of it is drawn: a budget that nobody uses says nothing of what
-    /// it would cost.
+    /// The target rises only while at least this share of it is drawn: the cost of an unused budget is unknown.
     double used_share = 0.9;
 };
 
@@ -47,8 +46,8 @@ struct StressState {
     Trend trend = Trend::Held;
     /// Filtered, with the last frame measured; nothing before the first.
     std::optional<double> stress;
-    /// What the control goes by: filtered too, but with long frames counted less and carried over to each new target.
-    /// At rest the same as `stress`.
+    /// The control variable: filtered, too, but long frames count less, and a new target scales it. At rest the same as
+    /// `stress`.
     double expected_stress = 0.0;
 
     /// The target as a whole number.
@@ -69,7 +68,7 @@ StressSettings stress_settings(const visuals::scene::Settings& settings, double 
 /// State before the first frame, at rest in the middle of the band.
 StressState initial_state(double triangles, const StressSettings& settings);
 
-/// The state where somebody else chose the next frame's target, at least 1.
+/// The state with another target (>= 1) for the next frame.
 StressState with_target(const StressState& state, int triangles);
 
 /// State after a frame. Settings are as their comments demand (asserted).
@@ -103,13 +102,13 @@ public:
     /// second that there is time for.
     void begin(const visuals::scene::Settings& settings, double rate_hz);
 
-    /// From now on each frame has these targets, by its number, whatever the clock says.
+    /// From now on frame i has target i, whatever frames take.
     void replay(std::vector<QualityTargets> quality_targets) { replayed_targets_ = std::move(quality_targets); }
 
     /// Triangles of ground that a frame aims at; below the number of replayed ones, if any (asserted).
     int triangle_target(int frame);
 
-    /// Smooth polygons of a frame; nothing: as the settings' share says. Likewise.
+    /// Smooth polygons of a frame; nothing: by the settings' share. The same limit of `frame`.
     std::optional<int> smooth_target(int frame) const;
 
     /// Learns from a frame. Returns its stress, the share of its time that it used: of this frame alone, or filtered

@@ -20,7 +20,7 @@ namespace octant::ui::flight {
 /// the camera as view 0 of entity 0 with its frustum.
 class CigiChannels {
 public:
-    /// Where Start of Frame comes in, unless a channel says otherwise.
+    /// The port that receives Start of Frame, unless a channel names another.
     static constexpr std::uint16_t default_own_port = 8005;
 
     /// Adds "cigi:HOST:PORT" or "cigi:HOST:PORT:OWN", OWN the port on which they answer. Throws Error.

@@ -3,6 +3,7 @@
 #include "ui/flight/renderer_choice.h"
 #include "ui/report/statistics.h"
 #include "ui/world/scene_ground.h"
+#include "ui/world/sun_at_time.h"
 #include "visuals/landscape/ground_texture_maker.h"
 #include "visuals/scene/camera_rig.h"
 
@@ -102,7 +103,7 @@ void Session::simulate_to(double time_s, int frame, FrameState& frame_state) {
     frame_state.time_s = time_s;
     frame_state.states.assign(simulation_->states().begin(), simulation_->states().end());
     if (source_ != nullptr) {
-        const auto turned = source_->turned_parts();
+        const auto turned = source_->articulated_parts();
         frame_state.articulated_parts.assign(turned.begin(), turned.end());
     }
     frame_state.state_hash = simulation_->state_hash();
@@ -221,24 +222,6 @@ std::uint64_t Session::hash_picture() {
     hash.add(std::as_bytes(std::span(picture().rgba)));
     picture_hash_.add_word(hash.value());
     return hash.value();
-}
-
-std::vector<FlightCamera> flight_cameras(const settings::RunSettings& settings) {
-    const world::World world = world::load_world(settings);
-    const world::PictureTimes times = world::picture_times_of(settings, world.flight);
-    const GroundHeight ground = [&](double x_m, double y_m) { return world.scene.ground->height_at(x_m, y_m); };
-    Simulation simulation(world);
-    simulation.begin_at(times.times_s.front());
-    scene::Subject subject = world.scene.model_of(0).subject;
-    subject.radius_m = simulation.formation().framed_radius_m(subject.radius_m);
-    std::vector<FlightCamera> cameras;
-    for (const double time_s : times.times_s) {
-        simulation.advance_to(time_s);
-        const sim::AircraftState& state = simulation.states().front();
-        cameras.push_back({scene::camera_of(settings.view, state, simulation.rig(), subject, world.points, ground),
-            state.position_m, subject.radius_m});
-    }
-    return cameras;
 }
 
 } // namespace octant::ui::flight

@@ -12,6 +12,7 @@
 #include "ui/report/kernel_counters.h"
 #include "ui/settings/frame_part.h"
 #include "ui/settings/settings.h"
+#include "ui/world/picture_times.h"
 #include "ui/world/scene_ground.h"
 #include "ui/world/world.h"
 #include "visuals/scene/camera.h"
@@ -74,7 +75,7 @@ public:
     double rate_hz() const { return times_.rate_hz; }
 
     /// Before the first draw(): flies as many frames as there are targets, at most frames() (asserted), each with its
-    /// targets whatever the clock says.
+    /// targets in place of those that --adapt would choose by the clock.
     void replay(std::vector<QualityTargets> quality_targets);
 
     /// Before the first draw(): draws only this part of the frames, as if those before it had been drawn. What later
@@ -140,15 +141,17 @@ public:
     const std::optional<visuals::shading::ShadingState>& shading() const { return quality_controller_.shading(); }
 
 private:
+    // The loop.
     world::RenderDevice render_device() const;
     void release_texture_memory();
     void start_flight();
-    visuals::scene::Camera camera_of(const settings::RunSettings& settings) const;
-    void set_cameras(FrameState& frame_state) const;
     void simulate_to(double time_s, int frame, FrameState& frame_state);
+    void set_cameras(FrameState& frame_state) const;
+    visuals::scene::Camera camera_of(const settings::RunSettings& settings) const;
     report::FrameRecord render_frame(int frame, double time_s, std::optional<double> next_s);
     void fill_in(const visuals::planning::PlanCounts& counts, report::FrameRecord& record);
 
+    // Changed settings (session_settings.cpp).
     void apply_world_change(const settings::RunSettings& settings);
     void apply_picture_change(const settings::RunSettings& settings);
     void apply_sun_change(const settings::RunSettings& settings, world::SceneGround ground);
@@ -176,24 +179,12 @@ private:
     Hash picture_hash_;
     report::KernelCounters counters_;
     base::Stopwatch since_first_frame_;
-    /// The air of another time of day, present while the task makes the ground in its colours. The task comes last
-    /// because it reads the scene.
+    /// follow_time_of_day(): the air of another time of day, present while the task makes the ground in its colours.
     std::optional<visuals::scene::AirSettings> recoloured_air_;
-    world::SceneGround recoloured_ground_; ///< written by the task
+    /// Written by the task.
+    world::SceneGround recoloured_ground_;
+    /// The last member, because the task reads the others.
     BackgroundTask recolouring_;
 };
-
-/// From where one frame of a run is seen.
-struct FlightCamera {
-    visuals::scene::Camera camera;
-    /// Where the first aircraft is.
-    glm::dvec3 aircraft_m{0.0};
-    /// The radius of a sphere around it.
-    double aircraft_radius_m = 0.0;
-};
-
-/// The cameras of all frames of a run, where a session with these settings has them, without any drawing. Loads the
-/// world. Throws Error.
-std::vector<FlightCamera> flight_cameras(const settings::RunSettings& settings);
 
 } // namespace octant::ui::flight

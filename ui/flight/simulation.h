@@ -6,6 +6,7 @@
 #include "sim/base/hash.h"
 #include "sim/levelling_autopilot.h"
 #include "sim/piloted_flight.h"
+#include "ui/world/formation.h"
 #include "ui/world/world.h"
 #include "visuals/planning/placed_aircraft.h"
 #include "visuals/scene/camera.h"
@@ -46,7 +47,7 @@ public:
         const visuals::scene::Camera& default_camera, double aspect) const = 0;
 
     /// Parts that the source turns, as of the last states_at().
-    virtual std::span<const visuals::planning::ArticulatedPart> turned_parts() const = 0;
+    virtual std::span<const visuals::planning::ArticulatedPart> articulated_parts() const = 0;
 
     /// How the world lies on the earth; null until that is known.
     virtual const EarthFrame* frame() const = 0;

@@ -16,13 +16,12 @@ struct ProgramResult {
     std::string last_error_line; ///< last line of its standard error, or how it ended
 };
 
-/// A program run beside ours, fed through its standard input; no shell is involved. It stands in a process group of its
-/// own: Ctrl-C reaches only us, and when we are killed it sees the end of its input and finishes in peace.
+/// A child process that reads its standard input from us; no shell is involved. It has a process group of its own:
+/// Ctrl-C reaches only us, and when we are killed it meets the end of its input and finishes in order.
 class ChildProgram {
 public:
     /// Starts `words[0]`, looked up on PATH, with the rest as arguments. With a `log`, its output and its errors go
-    /// into that file. Nothing when there is no such program that we may run. Throws Error when the system cannot start
-    /// it.
+    /// into that file. Nothing if there is no such program. Throws Error when the system cannot start it.
     static std::optional<ChildProgram> start(
         const std::vector<std::string>& words, const std::filesystem::path& log = {});
 

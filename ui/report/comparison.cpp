@@ -129,16 +129,16 @@ std::vector<std::string> gate_failures(Recordings recordings, const Gate& gate) 
     for (const LoadedRecording& recording : recordings.subspan(1)) {
         const auto names = settings_that_differ(first, recording);
         if (!names.empty()) {
-            throw_error_in(
-                recording.folder, fmt::format("expected a recording to be compared with {}, got one that differs in {}",
-                                      first.folder.string(), fmt::join(names, ", ")));
+            throw_error_in(recording.display_name,
+                fmt::format("expected a recording to be compared with {}, got one that differs in {}",
+                    first.display_name, fmt::join(names, ", ")));
         }
         for (const auto& [key, allowed] : gate) {
             const Statistic& statistic = *statistic_of(key);
             const double before = statistic.value(first.statistics);
             const double after = statistic.value(recording.statistics);
             if (before <= 0.0 || after <= 0.0) {
-                throw_error_in(recording.folder, "expected frames to compare, got none");
+                throw_error_in(recording.display_name, "expected frames to compare, got none");
             }
             if (after / before - 1.0 > allowed) {
                 faults.push_back(fmt::format("{}: {} {:.3f} ms, {:+.1f} % of {:.3f} ms, above {:+.1f} %",

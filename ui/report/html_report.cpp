@@ -2,7 +2,7 @@
 
 #include "sim/base/output_file.h"
 #include "ui/report/comparison.h"
-#include "ui/report/flight_plots.h"
+#include "ui/report/flight_accumulator.h"
 #include "ui/report/html_text.h"
 #include "ui/report/plots.h"
 #include "ui/report/slow_pictures.h"
@@ -37,12 +37,6 @@ constexpr std::array shown_statistics{"frames", "p50_ms", "p99_ms", "max_ms", "l
 const Statistic& statistic_named(std::string_view key) {
     return *std::ranges::find(all_statistics(), key, &Statistic::key);
 }
-
-std::string heading(std::string_view text) { return fmt::format("<h2>{}</h2>\n", escaped(text)); }
-
-std::string card(const std::string& inside) { return "<div class=\"card\">\n" + inside + "</div>\n"; }
-
-std::string note(std::string_view text) { return fmt::format("<p class=\"note\">{}</p>\n", escaped(text)); }
 
 /// A cell of a class of the style sheet.
 Cell styled(Cell cell, std::string css_class) {
@@ -139,7 +133,7 @@ std::string overview(const LoadedRecording& recording) {
         badge(fault.word, true);
         explanations += fault.explanation;
     }
-    html += (explanations.empty() ? "" : note(explanations)) + "<dl class=\"tiles\">\n";
+    html += (explanations.empty() ? "" : note_html(explanations)) + "<dl class=\"tiles\">\n";
     const Statistics& statistics = recording.statistics;
     for (const char* key : shown_statistics) {
         const Statistic& statistic = statistic_named(key);
@@ -153,15 +147,14 @@ std::string overview(const LoadedRecording& recording) {
         html += tile("Triangle target", fmt::format("{:.0f}", targets.mean),
             fmt::format("mean of {} to {}", targets.min_triangles, targets.max_triangles));
     }
-    return card(html + "</dl>\n");
+    return card_html(html + "</dl>\n");
 }
 
 /// The way from the page to a recording's own page; empty where there is none that stays.
 std::string link_to(const LoadedRecording& recording, const fs::path& page_folder) {
     std::error_code ignored;
-    const fs::path page = recording.folder / "report.html";
-    const bool is_unpacked = recording.display_name != recording.folder.string(); // removed at the program's end
-    if (page_folder.empty() || is_unpacked || !fs::is_regular_file(page, ignored)) { return {}; }
+    const fs::path page = recording.folder.path / "report.html";
+    if (page_folder.empty() || recording.folder.unpacked || !fs::is_regular_file(page, ignored)) { return {}; }
     return url_text(fs::absolute(page)
                         .lexically_normal()
                         .lexically_relative(fs::absolute(page_folder).lexically_normal())
@@ -214,7 +207,7 @@ std::string runs_table(Recordings recordings, const fs::path& page_folder) {
     if (left_out > 0) {
         table.note += fmt::format(" {} more settings differ; they are in the flights' own pages.", left_out);
     }
-    return card(html_of(table, "sortable runs"));
+    return card_html(html_of(table, "sortable runs"));
 }
 
 // Flights of the same path on the same kind of machine, compared.
@@ -307,7 +300,8 @@ std::string overlaid_plot(Recordings recordings, const std::vector<Indices>& var
     plot.levels = {{"16.67 ms", overrun_16_ms}};
     plot.marks = recordings[variants.front().front()].run.legs;
     const std::string html = page_plot(plot, PlotWidth::FullWidth);
-    return plot.series.size() == runs ? html : html + note(fmt::format("{} of {} runs.", plot.series.size(), runs));
+    return plot.series.size() == runs ? html
+                                      : html + note_html(fmt::format("{} of {} runs.", plot.series.size(), runs));
 }
 
 /// Recordings of the same flight on the same kind of machine: a table of their variants where settings differ, and
@@ -317,19 +311,19 @@ std::string compared_flights(Recordings recordings) {
     std::vector<Indices> groups = comparable_groups(recordings);
     std::erase_if(groups, [](const Indices& group) { return group.size() < 2; });
     if (groups.empty()) {
-        return note("No two of these recordings are of the same flight on the same kind of machine, so none are "
-                    "compared.");
+        return note_html("No two of these recordings are of the same flight on the same kind of machine, so none are "
+                         "compared.");
     }
-    std::string html = heading("The same flight, compared");
+    std::string html = heading_html("The same flight, compared");
     for (const Indices& group : std::span(groups).first(std::min(groups.size(), max_groups))) {
         const std::vector<Indices> variants = variants_of(recordings, group);
-        html += card("<h3>" + escaped(title_of(recordings[group.front()])) + "</h3>\n" +
-                     (variants.size() > 1 ? comparison_table(recordings, variants) : "") +
-                     overlaid_plot(recordings, variants, shared_ceiling_ms(recordings, group)));
+        html += card_html("<h3>" + escaped(title_of(recordings[group.front()])) + "</h3>\n" +
+                          (variants.size() > 1 ? comparison_table(recordings, variants) : "") +
+                          overlaid_plot(recordings, variants, shared_ceiling_ms(recordings, group)));
     }
     if (groups.size() > max_groups) {
-        html +=
-            note(fmt::format("The first {} of {} flights that were flown more than once.", max_groups, groups.size()));
+        html += note_html(
+            fmt::format("The first {} of {} flights that were flown more than once.", max_groups, groups.size()));
     }
     return html;
 }
@@ -339,17 +333,17 @@ std::string compared_flights(Recordings recordings) {
 /// All plots of one flight, over simulated time with the legs of its path.
 std::string plots_of_one(const LoadedRecording& recording) {
     const double ceiling_ms = plot_ceiling_ms(recording.statistics);
-    std::string html = heading("Plots") + "<div class=\"plots\">\n";
+    std::string html = heading_html("Plots") + "<div class=\"plots\">\n";
     PlotWidth width = PlotWidth::FullWidth;
     for (Plot& plot : flight_plots(recording.flight, ceiling_ms)) {
         if (plot.x_label.starts_with("simulated time")) { plot.marks = recording.run.legs; }
-        html += card(page_plot(plot, std::exchange(width, PlotWidth::HalfWidth)));
+        html += card_html(page_plot(plot, std::exchange(width, PlotWidth::HalfWidth)));
     }
     std::string text = "Values under the pointer; drag to zoom, double click for all of it.";
     if (recording.statistics.max_ms > ceiling_ms) {
         text += " Where a frame took longer than the plot is high, its curve leaves it at the top.";
     }
-    return html + "</div>\n" + note(text);
+    return html + "</div>\n" + note_html(text);
 }
 
 /// A small plot of each flight, on common axes.
@@ -372,8 +366,8 @@ std::string plots_of_several(Recordings recordings) {
         plot.levels = {{"16.67 ms", overrun_16_ms}};
         html += page_plot(plot, PlotWidth::Small);
     }
-    return heading("Frame time of each flight, ms over seconds, on common axes") +
-           card("<div class=\"small-plots\">\n" + html + "</div>\n");
+    return heading_html("Frame time of each flight, ms over seconds, on common axes") +
+           card_html("<div class=\"small-plots\">\n" + html + "</div>\n");
 }
 
 /// Pictures of one flight, evenly spaced; of several flights one from the middle of each.
@@ -396,10 +390,10 @@ std::string pictures(Recordings recordings) {
     }
     html = "<div class=\"sheet\">\n" + html + "</div>\n";
     if (all.size() > max_shown) {
-        html +=
-            note(fmt::format("{} of {} {}, evenly spaced.", max_shown, all.size(), is_one ? "pictures" : "flights"));
+        html += note_html(
+            fmt::format("{} of {} {}, evenly spaced.", max_shown, all.size(), is_one ? "pictures" : "flights"));
     }
-    return heading(is_one ? "Pictures" : "A picture from the middle of each flight") + card(html);
+    return heading_html(is_one ? "Pictures" : "A picture from the middle of each flight") + card_html(html);
 }
 
 // Figures, slow frames and results of one flight.
@@ -414,7 +408,7 @@ std::string statistics_table(const LoadedRecording& recording) {
                  "pictures and video is outside it. n is the number of frames counted. Stress (frames.csv) is the "
                  "share of a frame's time, the simulated time from it to the next, that frame_ms is; where the ground "
                  "adapts it is that share through a first-order filter.";
-    return heading("Frame times") + card(html_of(table));
+    return heading_html("Frame times") + card_html(html_of(table));
 }
 
 std::string overrun_summary(const LoadedRecording& recording) {
@@ -454,7 +448,7 @@ ResultTable slowest_table(const LoadedRecording& recording) {
 std::string slow_picture_html(const LoadedRecording& recording, const FrameRecord& frame) {
     constexpr int widest_px = 320;
     const std::string caption = fmt::format("frame {}, {:.2f} ms", frame.frame, frame.frame_ms);
-    const fs::path own = recording.folder / slow_picture_name(frame.frame);
+    const fs::path own = recording.folder.path / slow_picture_name(frame.frame);
     if (is_file(own)) { return picture_html(own, widest_px, caption); }
     if (recording.pictures.empty()) { return {}; }
     const fs::path& nearest = *std::ranges::min_element(recording.pictures, {}, [&](const fs::path& picture) {
@@ -468,9 +462,9 @@ std::string slowest_frames(const LoadedRecording& recording) {
     for (std::size_t i = 0; i < std::min(SlowPictures::max_shown, recording.slowest.size()); ++i) {
         sheet += slow_picture_html(recording, recording.slowest[i].record);
     }
-    return heading("The slowest frames and why") +
-           card(overrun_summary(recording) + html_of(slowest_table(recording)) +
-                (sheet.empty() ? "" : "<div class=\"sheet\">\n" + sheet + "</div>\n"));
+    return heading_html("The slowest frames and why") +
+           card_html(overrun_summary(recording) + html_of(slowest_table(recording)) +
+                     (sheet.empty() ? "" : "<div class=\"sheet\">\n" + sheet + "</div>\n"));
 }
 
 /// A table of names and values; empty without rows.
@@ -478,7 +472,7 @@ std::string values_table(std::string_view title, const NamedValues& rows) {
     if (rows.empty()) { return {}; }
     ResultTable table;
     for (const auto& [name, value] : rows) { table.add({{"", name}, styled({"", value}, "code")}); }
-    return heading(title) + card(html_of(table));
+    return heading_html(title) + card_html(html_of(table));
 }
 
 NamedValues result_rows(const LoadedRecording& recording) {
@@ -512,7 +506,7 @@ std::string html_report(
     Recordings recordings, std::span<const ResultTable> first_tables, const std::filesystem::path& page_folder) {
     const bool is_one = recordings.size() == 1;
     std::string html = page_head(page_title(recordings), "Octant flight report", recordings.size() > 1);
-    for (const ResultTable& table : first_tables) { html += card(html_of(table)); }
+    for (const ResultTable& table : first_tables) { html += card_html(html_of(table)); }
     if (recordings.empty()) { return html + page_end(); }
     const LoadedRecording& first = recordings.front();
     html += is_one ? overview(first) + plots_of_one(first)

@@ -52,6 +52,12 @@ std::string url_text(std::string_view path) {
     return text;
 }
 
+std::string heading_html(std::string_view text) { return fmt::format("<h2>{}</h2>\n", escaped(text)); }
+
+std::string note_html(std::string_view text) { return fmt::format("<p class=\"note\">{}</p>\n", escaped(text)); }
+
+std::string card_html(std::string_view html) { return fmt::format("<div class=\"card\">\n{}</div>\n", html); }
+
 namespace {
 
 constexpr std::string_view style_sheet = R"css(
@@ -117,7 +123,7 @@ header { margin-bottom: 1rem; }
 }
 .scroll { overflow-x: auto; }
 table { border-collapse: collapse; width: 100%; font-size: .9rem; }
-th, td { text-align: left; padding: .32rem .8rem .32rem 0; border-bottom: 1px solid var(--line); vertical-align: top; overflow-wrap: anywhere; }
+th, td { text-align: left; padding: .32rem .8rem .32rem 0; border-bottom: 1px solid var(--line); vertical-align: baseline; overflow-wrap: anywhere; }
 th { color: var(--soft); font-weight: 600; }
 tbody tr:last-child td { border-bottom: 0; }
 td:first-child:not(.number) { min-width: 9rem; width: 22%; }

@@ -9,8 +9,14 @@ namespace octant::ui::report {
 /// dropped, bytes that are no UTF-8 replaced by U+FFFD.
 std::string escaped(std::string_view text);
 
-/// A relative way to a file as a link has it: what is no letter, digit or one of -._~/ as %20.
+/// A relative path for a link: all characters but letters, digits and -._~/ as %20.
 std::string url_text(std::string_view path);
+
+/// Parts of a page. `text` is escaped, `html` is not: a heading of the second rank, a paragraph in small soft letters,
+/// a frame around other parts.
+std::string heading_html(std::string_view text);
+std::string note_html(std::string_view text);
+std::string card_html(std::string_view html);
 
 /// The beginning of every page, with style sheet (light or dark as the reader's system, printable), title and the line
 /// above it. Wide pages are for tables of many columns.

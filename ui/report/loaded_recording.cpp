@@ -1,6 +1,7 @@
 #include "ui/report/loaded_recording.h"
 
 #include "sim/base/error.h"
+#include "sim/base/output_file.h"
 #include "sim/base/text_file.h"
 #include "ui/base/data_files.h"
 #include "ui/report/frame_csv.h"
@@ -67,6 +68,22 @@ std::string disagreement_of(const RunFile& run, const Statistics& statistics) {
     return text;
 }
 
+void read_files(LoadedRecording& recording) {
+    const fs::path& folder = recording.folder.path;
+    recording.run = read_run_file(folder / "run.json");
+    std::string gap;
+    if (path_exists(folder / "frames.csv") || recording.run.ended) {
+        gap = read_rows(folder / "frames.csv", recording.flight);
+    }
+    recording.statistics = recording.flight.times().statistics();
+    recording.slowest = recording.flight.slow.slowest();
+    recording.has_counters = read_counters(folder / counters_name, recording.slowest);
+    recording.ended_early = !recording.run.ended;
+    recording.disagreement = disagreement_of(recording.run, recording.statistics);
+    recording.disagreement += (gap.empty() || recording.disagreement.empty() ? "" : "; ") + gap;
+    recording.pictures = pictures_in(folder);
+}
+
 } // namespace
 
 std::optional<long> picture_frame(std::string_view name) {
@@ -80,28 +97,16 @@ std::optional<long> picture_frame(std::string_view name) {
     return whole_number(name);
 }
 
-LoadedRecording load_recording(const fs::path& folder) {
-    std::error_code ignored;
-    if (!fs::is_directory(folder, ignored)) {
-        throw_error_in(folder, "expected the folder of a recording, found none");
-    }
+LoadedRecording load_recording(const fs::path& folder_or_zip) {
     LoadedRecording recording;
-    recording.folder = folder;
-    recording.display_name = base::with_path_aliases(folder.string());
-    const fs::path whole = fs::absolute(folder).lexically_normal();
-    recording.name = (whole.has_filename() ? whole.filename() : whole.parent_path().filename()).string();
-    recording.run = read_run_file(folder / "run.json");
-    std::string gap;
-    if (fs::exists(folder / "frames.csv", ignored) || recording.run.ended) {
-        gap = read_rows(folder / "frames.csv", recording.flight);
+    recording.folder = open_recording(folder_or_zip);
+    recording.display_name = folder_or_zip.string();
+    if (!is_folder(recording.folder.path)) {
+        throw_error_in(folder_or_zip, "expected the folder of a recording, found none");
     }
-    recording.statistics = recording.flight.times().statistics();
-    recording.slowest = recording.flight.slow.slowest();
-    recording.has_counters = read_counters(folder / counters_name, recording.slowest);
-    recording.ended_early = !recording.run.ended;
-    recording.disagreement = disagreement_of(recording.run, recording.statistics);
-    recording.disagreement += (gap.empty() || recording.disagreement.empty() ? "" : "; ") + gap;
-    recording.pictures = pictures_in(folder);
+    const fs::path whole = fs::absolute(recording.folder.path).lexically_normal();
+    recording.name = (whole.has_filename() ? whole.filename() : whole.parent_path().filename()).string();
+    base::with_named_errors([&] { read_files(recording); });
     return recording;
 }
 

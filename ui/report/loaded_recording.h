@@ -2,6 +2,7 @@
 
 #include "ui/report/flight_accumulator.h"
 #include "ui/report/frame_record.h"
+#include "ui/report/packed_recording.h"
 #include "ui/report/run_file.h"
 #include "ui/report/statistics.h"
 
@@ -16,9 +17,9 @@ namespace octant::ui::report {
 
 /// A recording read back. The figures come from frames.csv, whether the flight ended or not.
 struct LoadedRecording {
-    std::filesystem::path folder;
+    RecordingFolder folder;
     std::string name;         ///< the folder's own name
-    std::string display_name; ///< what messages call it: the folder, or the file that it was packed in
+    std::string display_name; ///< the folder or packed file that was given
     RunFile run;
     FlightAccumulator flight;
     Statistics statistics;
@@ -37,8 +38,8 @@ using Recordings = std::span<const LoadedRecording>;
 /// The frame of "picture-00042.png", nothing for other names.
 std::optional<long> picture_frame(std::string_view name);
 
-/// Reads a recording, a killed one too: then a torn last line of frames.csv is left out. Throws Error for what is no
-/// recording or is damaged.
-LoadedRecording load_recording(const std::filesystem::path& folder);
+/// Reads a recording, packed or not, a killed one too: then a torn last line of frames.csv is left out. Throws Error
+/// for what is no recording or is damaged.
+LoadedRecording load_recording(const std::filesystem::path& folder_or_zip);
 
 } // namespace octant::ui::report

@@ -39,8 +39,8 @@ struct CpuUse {
     double others = 0.0; ///< used by other programs on this machine
 };
 
-/// Reads what the machine says of itself; what it does not say stays "unknown" or zero. Never throws for a missing
-/// file. `root` stands for "/" (proc/ and etc/ below it are read).
+/// Reads /proc and /etc; entries that are missing stay "unknown" or zero. Never throws for a missing file. `root`
+/// replaces "/".
 MachineInfo read_machine_info(std::chrono::system_clock::time_point start, const std::filesystem::path& root = "/");
 
 CpuTimes read_cpu_times(const std::filesystem::path& root = "/");
@@ -53,9 +53,9 @@ inline constexpr double noisy_steal_share = 0.01;
 inline constexpr double noisy_others_share = 0.10;
 inline constexpr double noisy_load_per_core = 0.5;
 
-/// Why the timings of a flight are not to be trusted, one sentence each; empty = quiet. More than 1 % of the processor
-/// time stolen or more than 10 % used by other programs during the flight. Without figures from the flight (it was
-/// killed): a load average above half the cores at its start.
+/// Reasons not to trust the times of a flight, one sentence each; empty = quiet. More than 1 % of the processor time
+/// stolen or more than 10 % used by other programs during the flight. Without figures from the flight (it was killed):
+/// a load average above half the cores at its start.
 std::vector<std::string> noise_reasons(double load_average_1min, int cores, const std::optional<CpuUse>& during);
 
 /// "2026-01-31T23:59:59Z".

@@ -11,9 +11,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
-#include <cstdlib>
-#include <cstring>
 #include <fmt/format.h>
 #include <map>
 #include <memory>
@@ -111,26 +108,10 @@ void check_entries(const fs::path& zip, const std::vector<ZipEntry>& entries) {
     if (!has_run) { throw_error_in(zip, "expected a packed recording, got one without run.json"); }
 }
 
-/// A packed file by its name and time of writing.
-using Known = std::pair<fs::path, fs::file_time_type>;
-using Unpacked = std::map<Known, std::pair<std::unique_ptr<base::TemporaryFolder>, fs::path>>;
-
-Unpacked& unpacked_ones() {
-    static Unpacked all;
-    return all;
-}
-
-fs::path unpacked(const fs::path& zip, const fs::path& into) {
-    const std::vector<ZipEntry> entries = zip_entries(zip);
-    check_entries(zip, entries);
-    const fs::path stem = zip.stem(); // reports call it by its name
-    const fs::path folder = into / (stem.empty() || stem == "." || stem == ".." ? "recording" : stem);
-    base::set_path_alias(folder, zip.string());
-    for (const ZipEntry& entry : entries) {
-        make_folder((folder / entry.name).parent_path());
-        extract(zip, entry.name, folder / entry.name);
-    }
-    return folder;
+/// Where a packed recording is unpacked below `parent`: reports call it by the name of the file.
+fs::path folder_below(const fs::path& parent, const fs::path& zip) {
+    const fs::path stem = zip.stem();
+    return parent / (stem.empty() || stem == "." || stem == ".." ? "recording" : stem);
 }
 
 } // namespace
@@ -159,24 +140,23 @@ PackResult pack_recording(const fs::path& folder, const fs::path& zip, bool with
     return {static_cast<int>(files.size()) + 1, std::move(outsiders.notes)};
 }
 
-fs::path recording_folder(const fs::path& folder_or_zip) {
-    auto& opened = unpacked_ones();
-    std::error_code ignored;
-    if (!fs::is_regular_file(folder_or_zip, ignored)) { return folder_or_zip; }
-    const Known zip(fs::absolute(folder_or_zip).lexically_normal(), fs::last_write_time(folder_or_zip, ignored));
-    if (const auto known = opened.find(zip); known != opened.end()) { return known->second.second; }
-    auto place = std::make_unique<base::TemporaryFolder>();
-    const fs::path folder = unpacked(folder_or_zip, place->path());
-    opened.emplace(zip, std::pair(std::move(place), folder));
-    return folder;
+UnpackedRecording::UnpackedRecording(const fs::path& zip)
+    : folder_(folder_below(parent_.path(), zip)), alias_(folder_, zip.string()) {
+    base::with_named_errors([&] {
+        const std::vector<ZipEntry> entries = zip_entries(zip);
+        check_entries(zip, entries);
+        for (const ZipEntry& entry : entries) {
+            make_folder((folder_ / entry.name).parent_path());
+            extract(zip, entry.name, folder_ / entry.name);
+        }
+    });
 }
 
-void remove_unpacked() { unpacked_ones().clear(); }
-
-fs::path run_file_of(const fs::path& path) {
-    std::error_code ignored;
-    if (fs::is_directory(path, ignored)) { return path / run_name; }
-    return extension_of(path) == ".zip" ? recording_folder(path) / run_name : path;
+RecordingFolder open_recording(const fs::path& folder_or_zip) {
+    if (!is_file(folder_or_zip)) { return {folder_or_zip, nullptr}; }
+    auto unpacked = std::make_shared<const UnpackedRecording>(folder_or_zip);
+    const fs::path folder = unpacked->folder();
+    return {folder, std::move(unpacked)};
 }
 
 } // namespace octant::ui::report

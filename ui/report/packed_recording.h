@@ -1,6 +1,9 @@
 #pragma once
 
+#include "ui/base/data_files.h"
+
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -9,23 +12,39 @@ namespace octant::ui::report {
 /// What came of packing.
 struct PackResult {
     int files = 0;
-    std::vector<std::string> notes; ///< files that its run reads and that do not lie in it
+    /// Names files that its run reads and that do not lie in it.
+    std::vector<std::string> notes;
 };
 
-/// Writes a recording's folder as one zip file, whole or not at all. Terrain and what lies on it come with it, and with
-/// the files of their name beside them, if `with_terrain`; else they are known by their hashes and the way to them.
-/// Throws Error for what is no recording and for one that is being written.
+/// Writes a recording's folder as one zip file, whole or not at all. `with_terrain`: adds the files of terrain and
+/// drape and their companions (x.hdr, x.prj); else only their hashes and paths are in the recording. Throws Error for a
+/// folder that is no recording, and for a recording that is being written.
 PackResult pack_recording(const std::filesystem::path& folder, const std::filesystem::path& zip, bool with_terrain);
 
-/// The folder of a recording that is a folder or was packed. A packed one is unpacked into a folder of its own, which
-/// lives until the program ends; messages call that by the packed file's name (base::set_path_alias). Throws Error for
-/// a file that is no packed recording or has anything else in it.
-std::filesystem::path recording_folder(const std::filesystem::path& folder_or_zip);
+/// A packed recording, unpacked into a temporary folder, which goes with this object. As long as it lives, messages
+/// show the packed file's name in place of the folder.
+class UnpackedRecording {
+public:
+    /// Throws Error for a file that is no packed recording or has anything else in it.
+    explicit UnpackedRecording(const std::filesystem::path& zip);
 
-/// Removes what recording_folder() unpacked, before the program is ended by a signal.
-void remove_unpacked();
+    /// Named as the packed file, without its ending.
+    const std::filesystem::path& folder() const { return folder_; }
 
-/// The same for a recording's run.json, its folder or its packed file; other files stay.
-std::filesystem::path run_file_of(const std::filesystem::path& path);
+private:
+    base::TemporaryFolder parent_;
+    std::filesystem::path folder_;
+    base::PathAlias alias_;
+};
+
+/// The folder of a recording, packed or not.
+struct RecordingFolder {
+    std::filesystem::path path;
+    /// Owns the folder of a packed recording, else null.
+    std::shared_ptr<const UnpackedRecording> unpacked;
+};
+
+/// Unpacks a recording if it is a file. Throws Error as UnpackedRecording does.
+RecordingFolder open_recording(const std::filesystem::path& folder_or_zip);
 
 } // namespace octant::ui::report

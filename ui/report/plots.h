@@ -59,8 +59,8 @@ enum class PlotWidth {
     Small      ///< one of many; without the names of its axes
 };
 
-/// A plot for a page: its title, key and numbers, which the script of html_text.h draws at the size that it finds. Numbers have
-/// five significant digits.
+/// A plot for a page: its title, key and numbers, which the script of html_text.h draws at the size that it finds.
+/// Numbers have five significant digits.
 std::string page_plot(const Plot& plot, PlotWidth width);
 
 } // namespace octant::ui::report

@@ -44,7 +44,7 @@ struct RunInfo {
     glm::dvec3 path_offset_m{0.0}; ///< how the path was moved to stand over the ground
     MachineInfo machine;
     NamedValues facts;              ///< anything else the report should show
-    std::vector<std::string> notes; ///< what a person was told: voids filled, legs clipped, ...
+    std::vector<std::string> notes; ///< notes that the user saw: voids filled, legs clipped, ...
     std::vector<PlotMark> legs;     ///< of the path, by the simulated time when they begin
     NamedValues inputs;             ///< files that were read and hashes of what was in them
     NamedValues files;              ///< copies that lie in the recording: "inputs/a.obj" and its bytes; not in run.json

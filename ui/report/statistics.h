@@ -89,7 +89,7 @@ Statistics statistics_of(std::span<const FrameRecord> records);
 /// The same from bare frame times in milliseconds, in flight order.
 Statistics statistics_of_times(std::span<const double> frame_ms);
 
-/// The stages of a frame; `other` is what frame_ms holds beside the four that are timed.
+/// The stages of a frame; `other` is the rest of frame_ms, which none of the four stages covers.
 inline constexpr std::array<std::string_view, 5> stage_names{"sim", "plan", "draw", "read", "other"};
 
 /// A slow frame and why.

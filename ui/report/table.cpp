@@ -21,11 +21,11 @@ std::string opened(std::string_view element, bool is_number, std::string_view cs
     return classes.empty() ? fmt::format("<{}>", element) : fmt::format("<{} class=\"{}\">", element, classes);
 }
 
-std::string cell_html(const Cell& cell) {
+std::string cell_html(const Cell& cell, bool aligns_numbers) {
     const std::string text = escaped(cell.text);
     const std::string linked =
         cell.link.empty() ? text : fmt::format("<a href=\"{}\">{}</a>", escaped(cell.link), text);
-    return opened("td", is_number(cell), cell.css_class) + linked + "</td>";
+    return opened("td", aligns_numbers && is_number(cell), cell.css_class) + linked + "</td>";
 }
 
 std::string head_html(const ResultTable& table) {
@@ -69,11 +69,11 @@ std::string html_of(const ResultTable& table, std::string_view table_class) {
     html += "<tbody>\n";
     for (const auto& row : table.rows) {
         html += "<tr>";
-        for (const Cell& cell : row) { html += cell_html(cell); }
+        for (const Cell& cell : row) { html += cell_html(cell, is_named); }
         html += "</tr>\n";
     }
     html += "</tbody></table></div>\n";
-    if (!table.note.empty()) { html += "<p class=\"note\">" + escaped(table.note) + "</p>\n"; }
+    if (!table.note.empty()) { html += note_html(table.note); }
     return html;
 }
 

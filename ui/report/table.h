@@ -16,8 +16,8 @@
 
 namespace octant::ui::report {
 
-/// One cell of a table, with the name of its column: a row of cells describes its table. Examples:
-/// Cell("mesh", run.name), Cell("RMS, px", "{:.3f}", run.rms_px).
+/// One cell of a table, with the name of its column: a row of cells describes its table. Examples: Cell("mesh",
+/// run.name), Cell("RMS, px", "{:.3f}", run.rms_px).
 struct Cell {
     std::string column; ///< for people, with its unit
     std::string text;
@@ -44,8 +44,8 @@ struct ResultTable {
     void add(std::vector<Cell> row);
 };
 
-/// Title, table and note as HTML, all text escaped. Cells that are numbers are aligned right. `table_class`: of the
-/// style sheet; a table without header is written without a head.
+/// Title, table and note as HTML, all text escaped. Cells that are numbers are aligned right. A table whose columns
+/// have no names, such as one of names and values, has no head and is aligned left. `table_class`: of the style sheet.
 std::string html_of(const ResultTable& table, std::string_view table_class = {});
 
 /// A table as comma-separated text: header, rows; cells with commas in quotes.

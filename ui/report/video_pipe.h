@@ -35,8 +35,8 @@ public:
     /// Hands on one frame, `picture` of the video's format; does nothing when not running().
     void add(const PixelView& picture);
 
-    /// Waits until the file is whole. Returns nothing where it was made, else one line that ends in ffmpeg's last one;
-    /// what it left is then cut after the last whole fragment, or removed where there is none. Once only.
+    /// Waits until the file is whole. Returns nothing on success, else an error line that ends in ffmpeg's last one;
+    /// the file is then cut after its last whole fragment, or removed if it has none. Once only.
     std::optional<std::string> finish();
 
 private:

@@ -12,9 +12,9 @@ namespace octant::ui::report {
 /// A zip file being written. Its bytes depend on names and contents only: entries carry no time.
 class ZipWriter {
 public:
-    /// Makes the file under another name beside it. Throws Error.
+    /// Creates the file under a temporary name in the same folder. Throws Error.
     explicit ZipWriter(std::filesystem::path file);
-    /// Removes what was written unless finish() came.
+    /// Removes the file unless finish() was called.
     ~ZipWriter();
     ZipWriter(const ZipWriter&) = delete;
     ZipWriter& operator=(const ZipWriter&) = delete;
@@ -27,7 +27,7 @@ public:
     /// Adds a file's content, read in pieces. Throws Error.
     void add_file(const std::string& name, const std::filesystem::path& file);
 
-    /// Ends the file and gives it its name. Once only. Throws Error.
+    /// Ends the file and renames it. Once only. Throws Error.
     void finish();
 
 private:
@@ -40,19 +40,19 @@ private:
     void* zip_ = nullptr;
 };
 
-/// What a zip file says that it holds.
+/// An entry in the directory of a zip file.
 struct ZipEntry {
     std::string name;
     std::uint64_t bytes = 0;
 };
 
-/// The files in a zip file, in the order of their names. Throws Error where it is none.
+/// The files in a zip file, in the order of their names. Throws Error for a file of another format.
 std::vector<ZipEntry> zip_entries(const std::filesystem::path& zip);
 
 /// Writes a file of a zip file to `out`, whose folder is there. Throws Error, for a checksum that does not fit too.
 void extract(const std::filesystem::path& zip, const std::string& name, const std::filesystem::path& out);
 
-/// What a file of a zip file holds. Throws Error, as extract() and for one that is larger.
+/// The content of a file in a zip file. Throws Error as extract(), and for a larger one.
 std::string zip_text(const std::filesystem::path& zip, const std::string& name, std::size_t largest_bytes);
 
 } // namespace octant::ui::report

@@ -6,10 +6,15 @@
 
 #include <algorithm>
 #include <array>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
+
+namespace octant::ui::report {
+class UnpackedRecording;
+}
 
 namespace octant::ui::settings {
 
@@ -95,6 +100,8 @@ struct DrawingSettings {
 /// scene::Settings. A run is repeated by repeating its RunSettings. Each field has a row (setting_rows.h) from which
 /// its option, its file entry and its widget are made. Output files are not settings.
 struct RunSettings : visuals::scene::Settings {
+    /// Owns the folder of files that were read from a packed recording; else null.
+    std::shared_ptr<const report::UnpackedRecording> unpacked;
     PathSettings path;
     TimeSettings time;
     DrawingSettings drawing;

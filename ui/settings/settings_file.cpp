@@ -1,6 +1,7 @@
 #include "ui/settings/settings_file.h"
 
 #include "sim/base/error.h"
+#include "sim/base/output_file.h"
 #include "sim/base/text_file.h"
 #include "ui/base/json_value.h"
 #include "ui/report/packed_recording.h"
@@ -95,8 +96,9 @@ ordered_json settings_json(const RunSettings& settings) {
     return json;
 }
 
-RunSettings read_settings(const std::filesystem::path& given, std::vector<std::string>* notes) {
-    const std::filesystem::path path = report::run_file_of(given);
+namespace {
+
+RunSettings read_settings_file(const std::filesystem::path& path, std::vector<std::string>* notes) {
     constexpr std::size_t largest_bytes = std::size_t{16} << 20;
     const std::string text = read_text_file(path, largest_bytes);
     ordered_json json = report::parsed_json(path, text);
@@ -126,6 +128,18 @@ RunSettings read_settings(const std::filesystem::path& given, std::vector<std::s
         }
     }
     if (recorded) { resolve_paths_from(path.parent_path(), settings); }
+    return settings;
+}
+
+} // namespace
+
+RunSettings read_settings(const std::filesystem::path& given, std::vector<std::string>* notes) {
+    const bool is_packed = extension_of(given) == ".zip" && is_file(given);
+    const report::RecordingFolder recording =
+        is_packed ? report::open_recording(given) : report::RecordingFolder{given, nullptr};
+    const std::filesystem::path file = is_folder(recording.path) ? recording.path / "run.json" : recording.path;
+    RunSettings settings = base::with_named_errors([&] { return read_settings_file(file, notes); });
+    settings.unpacked = recording.unpacked;
     return settings;
 }
 

@@ -22,8 +22,7 @@ void Study::add(const std::string& file, report::ResultTable table) {
 void Study::add(std::span<const report::Plot> plots, const std::string& caption) {
     std::string html;
     for (const report::Plot& plot : plots) { html += report::page_plot(plot, report::PlotWidth::FullWidth); }
-    plots_html_ +=
-        fmt::format("<div class=\"card\">\n{}<p class=\"note\">{}</p>\n</div>\n", html, report::escaped(caption));
+    plots_html_ += report::card_html(html + report::note_html(caption));
 }
 
 void Study::add(const std::string& file, const report::PixelView& picture, const std::string& caption) {
@@ -40,9 +39,7 @@ void Study::finish(const std::string& page, const std::string& introduction) con
     if (!plots_html_.empty()) { figures += fmt::format("\nPlots: [{0}.html]({0}.html)\n", page); }
     write_file(output_.out / (page + ".md"), markdown + figures);
     std::string html = report::page_head(page, "octant study " + page, true);
-    for (const report::ResultTable& table : tables_) {
-        html += "<div class=\"card\">\n" + report::html_of(table) + "</div>\n";
-    }
+    for (const report::ResultTable& table : tables_) { html += report::card_html(report::html_of(table)); }
     write_file(output_.out / (page + ".html"), html + plots_html_ + pictures_html_ + report::page_end());
     std::fputs((output_.json ? report::json_of(tables_) : markdown).c_str(), stdout);
     base::print_note(output_.quiet,

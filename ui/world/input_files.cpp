@@ -57,7 +57,7 @@ public:
             } else if (ending == ".xml") {
                 add_xml_references(file, models::meshfile::read_xml(file));
             }
-        } catch (const Error&) { // whoever loads it says so
+        } catch (const Error&) { // the loader reports it
         }
     }
 
@@ -142,10 +142,10 @@ private:
 } // namespace
 
 std::vector<fs::path> referenced_files(const fs::path& model) {
-    ReferenceCollector following;
-    following.add_references(model);
-    std::erase(following.files, fs::absolute(model).lexically_normal());
-    return std::move(following.files);
+    ReferenceCollector collector;
+    collector.add_references(model);
+    std::erase(collector.files, fs::absolute(model).lexically_normal());
+    return std::move(collector.files);
 }
 
 namespace {
@@ -180,15 +180,15 @@ void make_path_absolute(std::string& path, const std::string& aircraft) {
     if (base::path_file(path, aircraft) == path) { path = absolute(path); }
 }
 
-/// The ways from a model's folder to those of the files it names that lie there or below.
+/// Relative paths, from a model's folder, of the files it names that are in that folder or below.
 std::vector<fs::path> relative_paths_below(const fs::path& model, const std::vector<fs::path>& named) {
     const fs::path folder = fs::absolute(model).lexically_normal().parent_path();
-    std::vector<fs::path> ways;
+    std::vector<fs::path> paths;
     for (const fs::path& file : named) {
-        const fs::path way = file.lexically_relative(folder);
-        if (!way.empty() && *way.begin() != "..") { ways.push_back(way); }
+        fs::path path = file.lexically_relative(folder);
+        if (!path.empty() && *path.begin() != "..") { paths.push_back(std::move(path)); }
     }
-    return ways;
+    return paths;
 }
 
 /// Where a recording has a file that its run reads.
@@ -383,7 +383,7 @@ std::vector<std::pair<std::string, std::string>> files_to_copy(
         }
     }
     for (const fs::path& file : order_files) {
-        if (is_file(file)) { // one that could not be written was told
+        if (is_file(file)) { // one that could not be written was reported
             copied.emplace_back(
                 (fs::path(inputs_folder) / "orders" / file.filename()).string(), read_file(file, largest_bytes));
         }

@@ -9,7 +9,7 @@
 
 namespace octant::ui::world {
 
-/// A file as it was at some time: another time of writing means other bytes.
+/// A file and its time of writing: another time means other bytes.
 struct FileMtime {
     std::filesystem::path file;
     std::filesystem::file_time_type modified;
@@ -17,13 +17,13 @@ struct FileMtime {
     bool operator==(const FileMtime&) const = default;
 };
 
-/// Adds the stamp of a file as it is now; of one that cannot be looked at, the oldest that there is.
+/// Adds a file with its time of writing; of one whose time cannot be read, the least time.
 void add_mtime(const std::filesystem::path& file, std::vector<FileMtime>& mtimes);
 
 /// The files that a model's file names, directly or through others, and that are there; absolute, each once, in the
 /// order in which they are met: materials and pictures of .obj files, pictures of .ac files, buffers and pictures of
-/// .gltf files, and all that FlightGear's .xml files name. What cannot be read or understood is passed over: whoever
-/// loads the model says so.
+/// .gltf files, and all that FlightGear's .xml files name. A file that cannot be read is passed over: the model's
+/// loader reports it.
 std::vector<std::filesystem::path> referenced_files(const std::filesystem::path& model);
 
 /// The settings with every file in them by its absolute name, so that they mean the same in any folder.

@@ -5,7 +5,9 @@
 #include "models/procedural/procedural_models.h"
 #include "models/repair/repair.h"
 #include "models/simplify/simplify.h"
+#include "sim/base/binary_file.h"
 #include "sim/base/error.h"
+#include "sim/base/hash.h"
 #include "sim/base/output_file.h"
 #include "sim/base/text_file.h"
 #include "ui/base/data_files.h"
@@ -20,6 +22,7 @@
 #include <cstdint>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <span>
 #include <string>
 #include <string_view>
 #include <system_error>
@@ -32,101 +35,14 @@ namespace refine = visuals::refine;
 
 namespace {
 
-/// Colours are vertices' in a hierarchy: those of the materials around each, where it has none.
-void colour_by_materials(models::TriangleMesh& mesh) {
-    if (!mesh.colours.empty()) { return; }
-    std::vector<glm::vec3> sums(mesh.vertices_m.size(), glm::vec3(0.0F));
-    std::vector<int> counts(mesh.vertices_m.size(), 0);
-    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-        const glm::vec3 colour = models::material_colour(mesh, t);
-        for (const std::uint32_t vertex : mesh.triangles[t]) {
-            sums[vertex] += colour;
-            ++counts[vertex];
-        }
-    }
-    for (std::size_t v = 0; v < sums.size(); ++v) {
-        mesh.colours.push_back(counts[v] > 0 ? sums[v] / static_cast<float>(counts[v]) : models::Material().colour);
-    }
-}
-
-/// Whether a hierarchy has the colour of a mesh without materials everywhere, as one has that was saved of a mesh
-/// without colours.
-bool is_all_grey(const refine::ProgressiveMesh& mesh) {
-    const refine::PackedColour grey = refine::packed_rgb16(models::Material().colour);
-    for (std::uint32_t leaf = 0; leaf < mesh.leaf_count(); ++leaf) {
-        if (refine::unpacked(mesh.packed_colour(leaf)) != refine::unpacked(grey)) { return false; }
-    }
-    return mesh.has_colours();
-}
-
-void refuse_too_many(const std::string& file, const models::TriangleMesh& mesh) {
-    using refine::ProgressiveMesh;
-    if (mesh.triangles.size() > ProgressiveMesh::max_faces || mesh.vertices_m.size() > ProgressiveMesh::max_leaves) {
-        throw_error_in(file, fmt::format("expected at most {} triangles and {} vertices to refine, got {} and {} "
-                                         "(octant simplify makes fewer of them)",
-                                 ProgressiveMesh::max_faces, ProgressiveMesh::max_leaves, mesh.triangles.size(),
-                                 mesh.vertices_m.size()));
-    }
-}
-
-} // namespace
-
-void note_repairs(const RefineMeshOptions& input, RefineMesh& mesh) {
-    for (const std::string& line : mesh.repairs) { mesh.notes.push_back(input.file + ": " + line); }
-}
-
-RefineMesh make_refine_mesh(const RefineMeshOptions& input, models::TriangleMesh mesh) {
-    models::repair::RepairedMesh repaired = models::repair::repaired(std::move(mesh));
-    RefineMesh result;
-    result.notes = repaired.mesh.notes;
-    result.repairs = models::repair::describe_counts(repaired.counts);
-    note_repairs(input, result);
-    if (repaired.mesh.triangles.empty()) { throw_error_in(input.file, "expected a mesh with triangles, got none"); }
-    refuse_too_many(input.file, repaired.mesh);
-    result.has_material_colours = repaired.mesh.colours.empty();
-    colour_by_materials(repaired.mesh);
-    constexpr int steps = 1000;
-    base::Progress progress("collapsing edges", steps, input.quiet, "thousandths");
-    models::simplify::SimplifyOptions options;
-    options.length_share = 0.03;
-    if (input.base > 0) { options.goal.vertices = input.base; }
-    options.show_progress = [&](double share) { progress.show(static_cast<int>(share * steps)); };
-    const models::CollapseSequence sequence = models::simplify::fast_sequence(std::move(repaired.mesh), options);
-    progress.finish();
-    result.mesh = std::make_shared<const refine::ProgressiveMesh>(sequence);
-    return result;
-}
-
-RefineMesh read_refine_mesh(const RefineMeshOptions& input) {
-    RefineMesh result;
-    if (refine::is_progressive_file(input.file)) {
-        result.mesh =
-            std::make_shared<const refine::ProgressiveMesh>(refine::read_progressive(input.file, input.max_vertices));
-        if (result.mesh->face_count() == 0) { throw_error_in(input.file, "expected a mesh with triangles, got none"); }
-        result.notes = result.mesh->parts().notes;
-        result.has_material_colours = is_all_grey(*result.mesh);
-    } else {
-        result = make_refine_mesh(input, load_mesh(input.file, {.pictures = true, .backs = true}));
-    }
-    return result;
-}
-
-RefineMesh load_refine_mesh(const RefineMeshOptions& input) {
-    RefineMesh result = read_refine_mesh(input);
-    for (const std::string& note : result.notes) { base::print_note(input.quiet, "note: " + note); }
-    return result;
-}
-
-namespace {
-
 struct Library {
-    /// What octant-read-mesh calls it.
+    /// Its name in the command line of octant-read-mesh.
     std::string_view word;
     std::string_view name;
     std::string_view endings;
 };
 
-/// As with Octant's own readers. Of larger files the libraries read for a minute and then find no room for them.
+/// The limit of Octant's own readers. The libraries read larger files for a minute and then fail for want of memory.
 constexpr std::uintmax_t largest_bytes = std::uintmax_t{1} << 30U;
 
 constexpr std::array libraries{
@@ -142,7 +58,7 @@ const Library* library_of(const fs::path& file) {
     return nullptr;
 }
 
-/// In the reader's own words where it told what it expected; else it crashed or met its limits.
+/// With the reader's own message if it has one; else it crashed or met its limits.
 [[noreturn]] void refuse(const fs::path& file, const Library& library, std::string_view error_line) {
     if (const std::string named = file.string() + ": "; error_line.starts_with(named)) {
         error_line.remove_prefix(named.size());
@@ -154,7 +70,7 @@ const Library* library_of(const fs::path& file) {
                              : fmt::format("expected a mesh that {} can read; its reader: {}", library.name, words));
 }
 
-/// Beside this program; empty where it was not built.
+/// In the folder of this program; empty if it was not built.
 fs::path reader_program() {
     std::error_code ignored;
     const fs::path reader = fs::read_symlink("/proc/self/exe", ignored).parent_path() / "octant-read-mesh";
@@ -213,6 +129,157 @@ models::TriangleMesh load_mesh(const std::string& name_or_file, const models::me
     }
     return is_library_file(name_or_file) ? read_library_mesh(name_or_file, options)
                                          : models::meshfile::read_mesh(name_or_file, options);
+}
+
+namespace {
+
+/// Colours are vertices' in a hierarchy: those of the materials around each, where it has none.
+void colour_by_materials(models::TriangleMesh& mesh) {
+    if (!mesh.colours.empty()) { return; }
+    std::vector<glm::vec3> sums(mesh.vertices_m.size(), glm::vec3(0.0F));
+    std::vector<int> counts(mesh.vertices_m.size(), 0);
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+        const glm::vec3 colour = models::material_colour(mesh, t);
+        for (const std::uint32_t vertex : mesh.triangles[t]) {
+            sums[vertex] += colour;
+            ++counts[vertex];
+        }
+    }
+    for (std::size_t v = 0; v < sums.size(); ++v) {
+        mesh.colours.push_back(counts[v] > 0 ? sums[v] / static_cast<float>(counts[v]) : models::Material().colour);
+    }
+}
+
+/// Whether a hierarchy has the colour of a mesh without materials everywhere, as one has that was saved of a mesh
+/// without colours.
+bool is_all_grey(const refine::ProgressiveMesh& mesh) {
+    const refine::PackedColour grey = refine::packed_rgb16(models::Material().colour);
+    for (std::uint32_t leaf = 0; leaf < mesh.leaf_count(); ++leaf) {
+        if (refine::unpacked(mesh.packed_colour(leaf)) != refine::unpacked(grey)) { return false; }
+    }
+    return mesh.has_colours();
+}
+
+void refuse_too_many(const std::string& file, const models::TriangleMesh& mesh) {
+    using refine::ProgressiveMesh;
+    if (mesh.triangles.size() > ProgressiveMesh::max_faces || mesh.vertices_m.size() > ProgressiveMesh::max_leaves) {
+        throw_error_in(file, fmt::format("expected at most {} triangles and {} vertices to refine, got {} and {} "
+                                         "(octant simplify makes fewer of them)",
+                                 ProgressiveMesh::max_faces, ProgressiveMesh::max_leaves, mesh.triangles.size(),
+                                 mesh.vertices_m.size()));
+    }
+}
+
+/// Adds its repairs to the notes of a mesh.
+void note_repairs(const RefineMeshOptions& input, RefineMesh& mesh) {
+    for (const std::string& line : mesh.repairs) { mesh.notes.push_back(input.file + ": " + line); }
+}
+
+} // namespace
+
+RefineMesh make_refine_mesh(const RefineMeshOptions& input, models::TriangleMesh mesh) {
+    models::repair::RepairedMesh repaired = models::repair::repaired(std::move(mesh));
+    RefineMesh result;
+    result.notes = repaired.mesh.notes;
+    result.repairs = models::repair::describe_counts(repaired.counts);
+    note_repairs(input, result);
+    if (repaired.mesh.triangles.empty()) { throw_error_in(input.file, "expected a mesh with triangles, got none"); }
+    refuse_too_many(input.file, repaired.mesh);
+    result.has_material_colours = repaired.mesh.colours.empty();
+    colour_by_materials(repaired.mesh);
+    constexpr int steps = 1000;
+    base::Progress progress("collapsing edges", steps, input.quiet, "thousandths");
+    models::simplify::SimplifyOptions options;
+    options.length_share = 0.03;
+    if (input.base > 0) { options.goal.vertices = input.base; }
+    options.show_progress = [&](double share) { progress.show(static_cast<int>(share * steps)); };
+    const models::CollapseSequence sequence = models::simplify::fast_sequence(std::move(repaired.mesh), options);
+    progress.finish();
+    result.mesh = std::make_shared<const refine::ProgressiveMesh>(sequence);
+    return result;
+}
+
+namespace {
+
+/// Raised whenever make_refine_mesh() gives any mesh another hierarchy, or its file another layout: what was cached
+/// before is then made anew.
+constexpr unsigned refine_mesh_cache_version = 4;
+
+template <class Item>
+void add_list(Hash& hash, const std::vector<Item>& list) {
+    hash.add_word(list.size());
+    hash.add(std::as_bytes(std::span(list)));
+}
+
+/// Another number for each seed.
+std::uint64_t hash_of(const models::TriangleMesh& mesh, std::uint64_t seed) {
+    Hash hash;
+    hash.add_word(seed);
+    hash.add_word(refine_mesh_cache_version);
+    add_list(hash, mesh.vertices_m);
+    add_list(hash, mesh.colours);
+    add_list(hash, mesh.triangles);
+    add_list(hash, mesh.normals);
+    add_list(hash, mesh.corner_normals);
+    add_list(hash, mesh.triangle_materials);
+    for (const models::Material& material : mesh.materials) { hash.add(std::as_bytes(std::span(&material.colour, 1))); }
+    return hash.value();
+}
+
+} // namespace
+
+fs::path refine_mesh_cache_file(const fs::path& folder, const models::TriangleMesh& mesh) {
+    return folder / fmt::format("{:016x}{:016x}.mesh", hash_of(mesh, 1), hash_of(mesh, 2));
+}
+
+RefineMesh cached_refine_mesh(const fs::path& folder, const RefineMeshOptions& input, models::TriangleMesh mesh) {
+    const fs::path file = refine_mesh_cache_file(folder, mesh);
+    const std::string key = file.stem().string();
+    const CacheFile cache{.cache = "order cache",
+        .file = file,
+        .kind = {.content = "a prepared mesh", .signature = "octrefin", .version = refine_mesh_cache_version},
+        .key = key};
+    const auto decode = [&](BinaryReader& in) {
+        RefineMesh prepared;
+        prepared.repairs.resize(in.take_count(sizeof(std::uint64_t), "a number of repairs"));
+        for (std::string& line : prepared.repairs) { line = in.take_text(); }
+        prepared.mesh = std::make_shared<const refine::ProgressiveMesh>(refine::progressive_mesh(in.take_text(), file));
+        return prepared;
+    };
+    std::vector<std::string> notes;
+    if (auto prepared = read_cache(cache, decode, notes)) {
+        prepared->notes = std::move(mesh.notes);
+        note_repairs(input, *prepared);
+        return std::move(*prepared);
+    }
+    RefineMesh made = make_refine_mesh(input, std::move(mesh));
+    BinaryWriter out;
+    out.put(std::uint64_t{made.repairs.size()});
+    for (const std::string& line : made.repairs) { out.put_text(line); }
+    out.put_text(refine::progressive_bytes(*made.mesh));
+    write_cache(cache, out.bytes(), notes);
+    made.notes.insert(made.notes.end(), notes.begin(), notes.end());
+    return made;
+}
+
+RefineMesh read_refine_mesh(const RefineMeshOptions& input) {
+    RefineMesh result;
+    if (refine::is_progressive_file(input.file)) {
+        result.mesh =
+            std::make_shared<const refine::ProgressiveMesh>(refine::read_progressive(input.file, input.max_vertices));
+        if (result.mesh->face_count() == 0) { throw_error_in(input.file, "expected a mesh with triangles, got none"); }
+        result.notes = result.mesh->parts().notes;
+        result.has_material_colours = is_all_grey(*result.mesh);
+    } else {
+        result = make_refine_mesh(input, load_mesh(input.file, {.pictures = true, .backs = true}));
+    }
+    return result;
+}
+
+RefineMesh load_refine_mesh(const RefineMeshOptions& input) {
+    RefineMesh result = read_refine_mesh(input);
+    for (const std::string& note : result.notes) { base::print_note(input.quiet, "note: " + note); }
+    return result;
 }
 
 } // namespace octant::ui::world

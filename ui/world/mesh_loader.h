@@ -14,37 +14,11 @@
 
 namespace octant::ui::world {
 
-struct RefineMeshOptions {
-    /// A triangle mesh or a progressive mesh (.pm).
-    std::string file;
-    /// Of meshes: vertices of the base mesh, at least; 0 = as few as can be.
-    std::size_t base = 0;
-    /// The most vertices that are read of a .pm file.
-    std::size_t max_vertices = std::numeric_limits<std::size_t>::max();
-    bool quiet = false;
-};
+/// Names that load_mesh() takes, as help lists them: "globe, torus, ...".
+std::string built_in_mesh_names();
 
-/// A hierarchy, with notes for the user.
-struct RefineMesh {
-    std::shared_ptr<const visuals::refine::ProgressiveMesh> mesh;
-    std::vector<std::string> notes;
-    /// What repair has changed, in words; in the notes, too, behind the name of the file.
-    std::vector<std::string> repairs;
-    /// True if the mesh has no vertex colours: the hierarchy then has its materials' colours, or grey.
-    bool has_material_colours = false;
-};
-
-/// Reads, or makes by repair and simplification, a hierarchy. Throws Error.
-RefineMesh read_refine_mesh(const RefineMeshOptions& input);
-
-/// Adds its repairs to the notes of a mesh.
-void note_repairs(const RefineMeshOptions& input, RefineMesh& mesh);
-
-/// Makes a hierarchy of a mesh that has been read from the input's file. Throws Error.
-RefineMesh make_refine_mesh(const RefineMeshOptions& input, models::TriangleMesh mesh);
-
-/// Reads or makes a hierarchy as read_refine_mesh does, and prints its notes to stderr. Throws Error.
-RefineMesh load_refine_mesh(const RefineMeshOptions& input);
+/// A triangle mesh by one of these names or from a file, not repaired. Throws Error.
+models::TriangleMesh load_mesh(const std::string& name_or_file, const models::meshfile::ReadOptions& options = {});
 
 /// Whether a file's ending is one that a library's reader takes: Assimp's or OpenSceneGraph's.
 bool is_library_file(const std::filesystem::path& file);
@@ -55,13 +29,48 @@ bool is_library_file(const std::filesystem::path& file);
 models::TriangleMesh read_library_mesh(
     const std::filesystem::path& file, const models::meshfile::ReadOptions& options = {});
 
-/// The endings that this build reads by libraries, a line each; said by octant --version.
+/// The endings that this build reads by libraries, a line a library, for octant --version.
 std::string library_formats();
 
-/// Names that load_mesh takes, as help lists them: "globe, torus, ...".
-std::string built_in_mesh_names();
+// Vertex hierarchies for refinement in flight.
 
-/// A triangle mesh by one of these names or from a file, not repaired. Throws Error.
-models::TriangleMesh load_mesh(const std::string& name_or_file, const models::meshfile::ReadOptions& options = {});
+struct RefineMeshOptions {
+    /// A triangle mesh or a progressive mesh (.pm).
+    std::string file;
+    /// Of meshes: the least number of vertices of the base mesh; 0 = as few as possible.
+    std::size_t base = 0;
+    /// The most vertices that are read of a .pm file.
+    std::size_t max_vertices = std::numeric_limits<std::size_t>::max();
+    bool quiet = false;
+};
+
+/// A hierarchy, with notes for the user.
+struct RefineMesh {
+    std::shared_ptr<const visuals::refine::ProgressiveMesh> mesh;
+    std::vector<std::string> notes;
+    /// Changes made by repair, a line each; also in the notes, after the name of the file.
+    std::vector<std::string> repairs;
+    /// True if the mesh has no vertex colours: the hierarchy then has its materials' colours, or grey.
+    bool has_material_colours = false;
+};
+
+/// Reads, or makes by repair and simplification, a hierarchy. Throws Error.
+RefineMesh read_refine_mesh(const RefineMeshOptions& input);
+
+/// Makes a hierarchy of a mesh that has been read from the input's file. Throws Error.
+RefineMesh make_refine_mesh(const RefineMeshOptions& input, models::TriangleMesh mesh);
+
+/// File of `folder` in which the hierarchy of a mesh is cached, named by two hashes of its places, triangles, colours
+/// and materials.
+std::filesystem::path refine_mesh_cache_file(const std::filesystem::path& folder, const models::TriangleMesh& mesh);
+
+/// As make_refine_mesh(), but read from the cache in `folder` if the same mesh was made before, else made and written
+/// there. Hierarchy and notes are the same either way. A damaged file is replaced, with a note. Processes may share a
+/// folder: files appear whole.
+RefineMesh cached_refine_mesh(
+    const std::filesystem::path& folder, const RefineMeshOptions& input, models::TriangleMesh mesh);
+
+/// Reads or makes a hierarchy as read_refine_mesh does, and prints its notes to stderr. Throws Error.
+RefineMesh load_refine_mesh(const RefineMeshOptions& input);
 
 } // namespace octant::ui::world

@@ -1,11 +1,10 @@
 #pragma once
 
 #include "models/heights/height_field.h"
-#include "models/heights/import_options.h"
 #include "models/heights/runway_strip.h"
 #include "sim/base/earth_frame.h"
 #include "ui/settings/settings.h"
-#include "ui/world/input_files.h"
+#include "ui/world/height_loader.h"
 #include "visuals/landscape/ground.h"
 #include "visuals/planning/scene.h"
 #include "visuals/scene/frame_plan.h"
@@ -18,31 +17,12 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 namespace octant::ui::world {
 
-/// Built-in ground by name, "hills" or "canyon", as models::procedural::procedural_terrain makes it; nothing for
-/// another name. It is cached in the user's cache folder; a damaged or outdated file is replaced, an unusable cache is
-/// ignored.
-std::optional<models::heights::HeightField> built_in_ground(std::string_view name);
-
-/// A height field by name: hills, canyon, or maps that GDAL reads, as models::heights::map_inputs takes them. Throws
-/// Error for a name that is neither, listing the built-in ones.
-models::heights::HeightField load_height_field(
-    const std::string& name_or_file, const models::heights::ImportOptions& options);
-
-/// A note where more triangles are asked for than the samples of a ground make; nothing where they suffice. `option`:
-/// what to change.
-std::optional<std::string> few_samples_note(
-    const std::string& name, const glm::ivec2& samples, int asked_triangles, const std::string& option);
-
 /// A note where the eye point lies under the ground, whose height there is `ground_m`; nothing where it does not.
 std::optional<std::string> low_eye_note(const glm::dvec3& eye_m, const std::optional<double>& ground_m);
-
-/// The import options of the settings, which count where a file does not say them.
-models::heights::ImportOptions import_options(const settings::PathSettings& settings);
 
 /// Who draws: decides whether the setting ground-shading auto uses a texture.
 enum class RenderDevice { Cpu, Gpu };
@@ -56,24 +36,10 @@ std::optional<visuals::scene::GroundTexture> load_ground_texture(const visuals::
 settings::RunSettings with_ground_defaults(
     const settings::RunSettings& settings, const std::optional<GeoPosition>& place);
 
-/// Inputs of the heights of a ground: equal inputs give equal heights.
-struct TerrainSources {
-    /// As PathSettings has them.
-    std::string terrain;
-    models::heights::ImportOptions options;
-    /// All files that the heights and their system come from; none for made ground.
-    std::vector<FileMtime> files;
-
-    bool operator==(const TerrainSources&) const = default;
-};
-
-/// Throws Error where there are no such files.
-TerrainSources terrain_sources(const settings::PathSettings& settings);
-
-/// What is known of the ground of a run beside its shape.
+/// Facts about the ground of a run that its shape does not tell.
 struct GroundInfo {
     TerrainSources inputs;
-    /// How many samples of the heights had no data.
+    /// Number of samples of the heights that had no data.
     std::int64_t filled_voids = 0;
     /// With its size, for people.
     std::string name;
@@ -103,31 +69,16 @@ using RunwayFinder = std::function<models::heights::RunwayStrip(
 SceneGround load_scene_ground(
     const settings::RunSettings& settings, RenderDevice device, const RunwayFinder& find_runway = nullptr);
 
-/// The ground of a run whose heights another run has in memory: as it is there where these settings mesh and colour it
-/// alike. Nothing where it must be loaded. Throws Error for an image to be laid over it.
+/// The ground of a run whose heights another run has in memory: the same object if these settings mesh and colour it
+/// alike, else made of the same heights. Nothing if it must be loaded. Throws Error for an image to be laid over it.
 std::optional<SceneGround> shared_scene_ground(const GroundInfo& info,
     const std::shared_ptr<const visuals::landscape::Ground>& ground, const settings::RunSettings& settings,
     RenderDevice device);
 
-/// Ground and texture of a scene as these settings, which are with_ground_defaults(), want them: made of the heights in
-/// memory, in other colours or under another mesh. Terrain is not read again; an image laid over it is. Nothing where
-/// the heights must be loaded. Throws Error for that image.
+/// Ground and texture of the same scene for changed settings, which are with_ground_defaults(): made of the heights in
+/// memory, in other colours or with another mesh. Only an image that is laid over the ground is read again; Error if it
+/// cannot be. Nothing if the heights must be loaded.
 std::optional<SceneGround> rebuilt_scene_ground(
     const visuals::planning::Scene& scene, const settings::RunSettings& settings, RenderDevice device);
-
-/// 45 degrees north for ground without a place.
-double latitude_of(const std::optional<GeoPosition>& place);
-
-/// The settings with the sun where it stands at their time and that place, on the horizon at night; the same settings
-/// where they name no time, which has passed settings::check_settings.
-settings::RunSettings with_sun_at_time(settings::RunSettings settings, const std::optional<GeoPosition>& place);
-
-/// As with_sun_at_time(), for settings that change from `before`: where the sun was moved by hand (the sun differs, the
-/// time does not), the time is cleared.
-settings::RunSettings with_sun_updated(
-    settings::RunSettings settings, const settings::RunSettings& before, const std::optional<GeoPosition>& place);
-
-/// Notes on the sun of the settings' time: that it is the earth's, over another planet, or below the horizon.
-std::vector<std::string> sun_notes(const settings::RunSettings& settings, const std::optional<GeoPosition>& place);
 
 } // namespace octant::ui::world

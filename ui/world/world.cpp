@@ -9,8 +9,11 @@
 #include "ui/settings/aircraft_entry.h"
 #include "ui/settings/settings_check.h"
 #include "ui/world/aircraft_loader.h"
-#include "ui/world/flight.h"
+#include "ui/world/formation.h"
+#include "ui/world/path_placement.h"
+#include "ui/world/runway_finder.h"
 #include "ui/world/scene_ground.h"
+#include "ui/world/sun_at_time.h"
 
 #include <glm/common.hpp>
 
@@ -24,55 +27,8 @@ namespace octant::ui::world {
 
 namespace planning = visuals::planning;
 namespace scene = visuals::scene;
-using settings::RunSettings;
 
 namespace {
-
-constexpr int max_abreast = 9;
-
-int aircraft_abreast(int aircraft) {
-    return aircraft <= max_abreast ? aircraft
-                                   : static_cast<int>(std::ceil(std::cbrt(static_cast<double>(aircraft)) - 1e-9));
-}
-
-} // namespace
-
-Formation::Formation(int aircraft, double largest_radius_m)
-    : abreast_(aircraft_abreast(aircraft)), lines_per_layer_(aircraft <= max_abreast ? 1 : abreast_),
-      wingmen_per_side_(abreast_ / 2), lateral_spacing_m_(1.7 * largest_radius_m),
-      trail_spacing_m_(0.5 * largest_radius_m) {}
-
-sim::AircraftState Formation::wingman_state(const sim::AircraftState& leader, int number) const {
-    const int place = number % abreast_;
-    const int line = number / abreast_ % lines_per_layer_;
-    const int layer = number / abreast_ / lines_per_layer_;
-    const double rank = (place + 1) / 2; // NOLINT(bugprone-integer-division): whole ranks
-    const double side = place % 2 == 1 ? 1.0 : -1.0;
-    const double heading_rad = euler_from_body_to_world(leader.body_to_world).heading_rad;
-    const glm::dvec3 ahead = direction_from_heading(heading_rad);
-    const glm::dvec3 right(ahead.y, -ahead.x, 0.0);
-    sim::AircraftState state = leader;
-    state.position_m += rank * (side * lateral_spacing_m_ * right - trail_spacing_m_ * ahead);
-    state.position_m += glm::dvec3(0.0, 0.0, line * lateral_spacing_m_) - layer * 2.0 * lateral_spacing_m_ * ahead;
-    return state;
-}
-
-double Formation::framed_radius_m(double leader_radius_m) const {
-    // The camera stands three radii behind and sees a little more than a third of a right angle to either side.
-    constexpr double distances_per_aside = 2.2;
-    const double distance_m = wingmen_per_side_ * (distances_per_aside * lateral_spacing_m_ + trail_spacing_m_);
-    return std::max(leader_radius_m, distance_m / 3.0);
-}
-
-namespace {
-
-double largest_radius_m(const planning::Scene& scene) {
-    double largest_m = 0.0;
-    for (const std::uint32_t model : scene.aircraft) {
-        largest_m = std::max(largest_m, scene.models[model]->subject.radius_m);
-    }
-    return largest_m;
-}
 
 void add_notes(std::vector<std::string>& notes, const std::vector<std::string>& more) {
     notes.insert(notes.end(), more.begin(), more.end());
@@ -160,7 +116,7 @@ void check_own_paths(const settings::RunSettings& settings, bool is_live) {
     }
 }
 
-std::shared_ptr<const planning::DrawnPath> drawn_path(const Flight& flight) {
+std::shared_ptr<const planning::DrawnPath> drawn_path(const PlacedFlight& flight) {
     std::vector<planning::NamedTime> legs;
     for (const flightpaths::LegStart& leg : flight.legs) { legs.push_back({leg.time_s, leg.label}); }
     return std::make_shared<const planning::DrawnPath>(planning::drawn_path(flight.trajectory, legs));
@@ -227,28 +183,6 @@ void note_views(const settings::RunSettings& settings, bool is_live, World& worl
 
 } // namespace
 
-Formation formation_of(const planning::Scene& scene, const Flight& flight) {
-    const std::size_t own = std::min(flight.other_trajectories.size(), scene.aircraft.size() - 1);
-    return {static_cast<int>(scene.aircraft.size() - own), largest_radius_m(scene)};
-}
-
-void formation_states(const Flight& flight, const Formation& formation, const sim::AircraftState& leader, double time_s,
-    std::span<sim::AircraftState> states) {
-    states.front() = leader;
-    int number = 0;
-    for (std::size_t i = 1; i < states.size(); ++i) {
-        const auto own = flight.other_trajectories.find(i);
-        if (own == flight.other_trajectories.end()) {
-            states[i] = formation.wingman_state(leader, ++number);
-            continue;
-        }
-        const sim::Trajectory& path = own->second;
-        states[i] = path.state_at(time_s);
-        states[i].time_s = leader.time_s;
-        states[i].is_present = time_s >= path.start_s() && time_s <= path.end_s();
-    }
-}
-
 scene::FixedViewpoints fixed_points(const settings::RunSettings& settings, const World& world) {
     settings::check_eye_point(settings.view);
     scene::FixedViewpoints points;
@@ -259,10 +193,10 @@ scene::FixedViewpoints fixed_points(const settings::RunSettings& settings, const
     if (settings.view.kind != scene::View::Tower && settings.view.inset != scene::View::Tower) { return points; }
     const GroundHeight ground = [&](double x_m, double y_m) { return world.scene.ground->height_at(x_m, y_m); };
     std::vector<sim::AircraftState> flight;
-    const scene::TowerRequest wish = tower_request(world, flight);
+    const scene::TowerRequest request = tower_request(world, flight);
     const bool placed_by_hand = settings.view.kind == scene::View::Tower && settings.view.eye_m;
     points.tower =
-        placed_by_hand ? scene::tower_at(*settings.view.eye_m, wish, ground) : scene::tower_for(wish, ground);
+        placed_by_hand ? scene::tower_at(*settings.view.eye_m, request, ground) : scene::tower_for(request, ground);
     return points;
 }
 
@@ -319,49 +253,6 @@ World load_world(const settings::RunSettings& settings, RenderDevice device, con
     world.points = fixed_points(settings, world);
     note_views(settings, is_live, world);
     return world;
-}
-
-namespace {
-
-double first_time_s(const RunSettings& settings, const sim::Trajectory& path) {
-    const double length_s = path.end_s() - path.start_s();
-    if (settings.time.start_s > 0.0 && settings.time.start_s >= length_s) {
-        throw Error(
-            fmt::format("--start: expected less than the path's {} s, got {}", length_s, settings.time.start_s));
-    }
-    return path.start_s() + settings.time.start_s;
-}
-
-} // namespace
-
-void PictureTimes::truncate_to(std::size_t frames) {
-    if (frames < times_s.size()) {
-        times_s.resize(frames);
-        last_step_s = times_s.back();
-    }
-}
-
-PictureTimes picture_times_of(const RunSettings& settings, const Flight& flight) {
-    const sim::Trajectory& path = flight.trajectory;
-    const double from_s = first_time_s(settings, path);
-    PictureTimes times;
-    times.rate_hz = settings.time.frame_per_sample ? flight.rate_hz : settings.time.rate_hz;
-    times.last_step_s = settings.time.seconds ? std::min(path.end_s(), from_s + *settings.time.seconds) : path.end_s();
-    if (settings.time.frame_per_sample) {
-        const double half_frame_s = 0.5 / times.rate_hz;
-        for (const sim::AircraftState& sample : path.samples()) {
-            if (sample.time_s >= from_s && sample.time_s <= times.last_step_s + half_frame_s) {
-                times.times_s.push_back(sample.time_s);
-            }
-        }
-    } else {
-        const auto count = static_cast<long>(std::floor((times.last_step_s - from_s) * times.rate_hz + 1e-6)) + 1;
-        for (long frame = 0; frame < count; ++frame) {
-            times.times_s.push_back(from_s + static_cast<double>(frame) / times.rate_hz);
-        }
-    }
-    if (settings.time.frames) { times.truncate_to(static_cast<std::size_t>(*settings.time.frames)); }
-    return times;
 }
 
 namespace {

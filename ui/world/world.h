@@ -1,60 +1,26 @@
 #pragma once
 
 #include "sim/aircraft_kind.h"
-#include "sim/aircraft_state.h"
-#include "sim/base/earth_frame.h"
 #include "sim/trajectory.h"
 #include "ui/settings/settings.h"
 #include "ui/world/aircraft_loader.h"
-#include "ui/world/flight.h"
+#include "ui/world/path_placement.h"
 #include "ui/world/scene_ground.h"
 #include "visuals/planning/scene.h"
 #include "visuals/scene/camera_rig.h"
 
-#include <cstddef>
-#include <cstdint>
-#include <memory>
-#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 namespace octant::ui::world {
 
-/// Where wingmen fly, in the leader's attitude and far enough apart for the largest of them: up to eight nearly abreast
-/// of him, alternately to his right and left; more in lines one above and one behind the other, so that a thousand are
-/// a block of ten by ten by ten.
-class Formation {
-public:
-    /// `aircraft` >= 1 with the leader; `largest_radius_m` of any of them.
-    Formation(int aircraft, double largest_radius_m);
-
-    /// State of wingman `number` (from 1) beside the leader.
-    sim::AircraftState wingman_state(const sim::AircraftState& leader, int number) const;
-
-    /// Radius of the sphere that a chase camera should frame, so that all are in its picture: the leader's own radius
-    /// unless the formation is too wide for it.
-    double framed_radius_m(double leader_radius_m) const;
-
-private:
-    /// Aircraft in a line, the leader's place among them.
-    int abreast_;
-    /// Lines one above the other, in each layer.
-    int lines_per_layer_;
-    /// Wingmen to one side of a line's middle.
-    int wingmen_per_side_;
-    /// How far a rank stands beside the one before.
-    double lateral_spacing_m_;
-    /// How far a rank stands behind the one before.
-    double trail_spacing_m_;
-};
-
 /// Everything a run needs, loaded.
 struct World {
     visuals::planning::Scene scene;
     /// The row of the first aircraft; null where only its shape is known.
     const sim::AircraftKind* leader_kind = nullptr;
-    Flight flight{.trajectory = sim::Trajectory(std::vector<sim::AircraftState>(1)),
+    PlacedFlight flight{.trajectory = sim::Trajectory(std::vector<sim::AircraftState>(1)),
         .title = {},
         .legs = {},
         .other_trajectories = {}};
@@ -65,13 +31,6 @@ struct World {
     /// Notes for the user: voids filled, legs clipped, ...
     std::vector<std::string> notes;
 };
-
-/// The formation of those aircraft that fly no path of their own.
-Formation formation_of(const visuals::planning::Scene& scene, const Flight& flight);
-
-/// The states of all aircraft at a time at which the first one's is `leader`.
-void formation_states(const Flight& flight, const Formation& formation, const sim::AircraftState& leader, double time_s,
-    std::span<sim::AircraftState> states);
 
 /// Where the views of these settings stand that do not follow the aircraft. Throws Error for eye points that the view
 /// does not take.
@@ -85,21 +44,6 @@ void check_clouds(const visuals::scene::AirSettings& air, const visuals::landsca
 /// these settings mesh and colour it alike. Throws Error.
 World load_world(const settings::RunSettings& settings, RenderDevice device = RenderDevice::Cpu,
     const World* shared_world = nullptr);
-
-/// When the pictures of a run are taken.
-struct PictureTimes {
-    /// At least one.
-    std::vector<double> times_s;
-    double rate_hz = 0.0;
-    /// The time of the last simulation step of the run.
-    double last_step_s = 0.0;
-
-    /// Leaves the first so many, at least one; does nothing where there are no more.
-    void truncate_to(std::size_t frames);
-};
-
-/// Throws Error when the run would start behind the path's end.
-PictureTimes picture_times_of(const settings::RunSettings& settings, const Flight& flight);
 
 /// Notes for options of detail or scenery near the eye that this ground cannot show. `given`: names of the options on
 /// the command line.

@@ -113,8 +113,8 @@ TEST_CASE("the 500MD's body is 7.1 m long, its hub 2.7 m over the skids, its rot
 }
 
 TEST_CASE("what lies in a folder of the program's own is called by the file that it came from") {
-    ui::base::set_path_alias("/own/octant-a1/one", "flights/one.zip");
-    ui::base::set_path_alias("/own/octant-b2/one", "one.zip");
+    const ui::base::PathAlias one("/own/octant-a1/one", "flights/one.zip");
+    const ui::base::PathAlias other("/own/octant-b2/one", "one.zip");
     CHECK(ui::base::with_path_aliases("/own/octant-a1/one/frames.csv:3: expected a number, got 'x'") ==
           "flights/one.zip/frames.csv:3: expected a number, got 'x'");
     CHECK(ui::base::with_path_aliases("/own/octant-b2/one differs from /own/octant-a1/one") ==

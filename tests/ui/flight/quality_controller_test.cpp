@@ -37,12 +37,12 @@ QualityController begun(const Settings& settings) {
 
 /// A frame of a machine that takes a microsecond for each triangle of ground and ten for each smooth polygon.
 FrameMeasurement frame_of(int triangles, int smooth, int polygons) {
-    FrameMeasurement outcome;
-    outcome.frame_ms = 1e-3 * triangles + 1e-2 * smooth;
-    outcome.terrain_triangles = triangles;
-    outcome.smoothable_polygons = polygons;
-    outcome.smooth_polygons = smooth;
-    return outcome;
+    FrameMeasurement measurement;
+    measurement.frame_ms = 1e-3 * triangles + 1e-2 * smooth;
+    measurement.terrain_triangles = triangles;
+    measurement.smoothable_polygons = polygons;
+    measurement.smooth_polygons = smooth;
+    return measurement;
 }
 
 } // namespace
@@ -78,8 +78,7 @@ TEST_CASE("the triangle target falls to what the frame's time allows, and stays 
 }
 
 TEST_CASE("frames of the warm-up teach nothing") {
-    const Settings settings = adapting(true, true);
-    QualityController quality_controller = begun(settings);
+    QualityController quality_controller = begun(adapting(true, true));
     for (int frame = 0; frame < 50; ++frame) {
         FrameMeasurement slow = frame_of(100000, 10, 100);
         slow.warm_up = true;
@@ -141,11 +140,11 @@ TEST_CASE("decisions that followed the clock are the same when they are replayed
         quality_targets.push_back({live.triangle_target(frame), std::nullopt});
         live.add_frame(frame_of(quality_targets.back().triangle_target, 0, 0));
     }
-    QualityController repeat_option = begun(settings);
-    repeat_option.replay(quality_targets);
+    QualityController replayed = begun(settings);
+    replayed.replay(quality_targets);
     for (int frame = 0; frame < 100; ++frame) {
-        CHECK(repeat_option.triangle_target(frame) == quality_targets[static_cast<std::size_t>(frame)].triangle_target);
-        repeat_option.add_frame(frame_of(repeat_option.triangle_target(frame), 0, 0));
+        CHECK(replayed.triangle_target(frame) == quality_targets[static_cast<std::size_t>(frame)].triangle_target);
+        replayed.add_frame(frame_of(replayed.triangle_target(frame), 0, 0));
     }
 }
 
@@ -270,9 +269,9 @@ TEST_CASE("the budget rises slowly into free time and follows a load that comes 
     CHECK(falling[120] < 0.8 * before); // most of it within two seconds
     CHECK(all_same(falling, 300));
     machine.ms_per_triangle *= 0.5;
-    const auto repeat_option = fly(state, settings, machine, 1200);
-    CHECK(repeat_option.back() == Approx(before).epsilon(0.1));
-    CHECK(all_same(repeat_option, 900));
+    const auto rising_again = fly(state, settings, machine, 1200);
+    CHECK(rising_again.back() == Approx(before).epsilon(0.1));
+    CHECK(all_same(rising_again, 900));
 }
 
 TEST_CASE("one slow frame moves a settled budget hardly or not at all") {

@@ -228,32 +228,32 @@ TEST_CASE("another visibility makes nothing anew, and an inset sees it too") {
     CHECK(flown.log().visibilities_m[flown.log().visibilities_m.size() - 2] == 1234.0F);
 }
 
-TEST_CASE("light that is made beside the pictures is that of a change in between") {
+TEST_CASE("light that is made while pictures are drawn is that of a change in between") {
     RunSettings settings = small_settings();
     settings.view.inset = scene::View::Orbit;
-    Flown beside(settings);
+    Flown followed(settings);
     Flown at_once(settings);
-    beside.picture();
+    followed.picture();
     at_once.picture();
     settings.air.time = "2026-06-21T08:30";
-    const std::uint64_t before = beside.last_ground();
-    CHECK_FALSE(beside.session().follow_time_of_day(std::nullopt));
-    CHECK_FALSE(beside.session().follow_time_of_day(settings.air.time)); // begins
-    while (!beside.session().follow_time_of_day(settings.air.time)) {
+    const std::uint64_t before = followed.last_ground();
+    CHECK_FALSE(followed.session().follow_time_of_day(std::nullopt));
+    CHECK_FALSE(followed.session().follow_time_of_day(settings.air.time)); // begins
+    while (!followed.session().follow_time_of_day(settings.air.time)) {
         std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }
-    CHECK_FALSE(beside.session().follow_time_of_day(settings.air.time));
+    CHECK_FALSE(followed.session().follow_time_of_day(settings.air.time));
     at_once.apply(settings);
-    check_same_pictures(beside, at_once);
-    CHECK(beside.last_ground() != before);
+    check_same_pictures(followed, at_once);
+    CHECK(followed.last_ground() != before);
 
     settings.air.time = "2026-06-21T18:30";
-    CHECK_FALSE(beside.session().follow_time_of_day(settings.air.time));
+    CHECK_FALSE(followed.session().follow_time_of_day(settings.air.time));
     settings.air.palette = scene::Palette::Arid; // loads its own light
-    beside.apply(settings);
+    followed.apply(settings);
     at_once.apply(settings);
-    CHECK_FALSE(beside.session().follow_time_of_day(settings.air.time));
-    check_same_pictures(beside, at_once);
+    CHECK_FALSE(followed.session().follow_time_of_day(settings.air.time));
+    check_same_pictures(followed, at_once);
 }
 
 TEST_CASE("ground in another light has the colours of ground that was loaded so") {

@@ -13,7 +13,7 @@ namespace {
 LoadedRecording run_of(const std::string& path, const std::string& method, double p50_ms) {
     LoadedRecording recording;
     recording.name = path + "-" + method;
-    recording.folder = recording.display_name = recording.name;
+    recording.folder.path = recording.display_name = recording.name;
     recording.run.settings = {{"path", path}, {"order-method", method}};
     recording.statistics.frames = 10;
     recording.statistics.p50_ms = p50_ms;

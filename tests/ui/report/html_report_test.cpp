@@ -1,6 +1,6 @@
 #include "sim/base/output_file.h"
 #include "tests/ui/report/scratch.h"
-#include "ui/report/flight_plots.h"
+#include "ui/report/flight_accumulator.h"
 #include "ui/report/html_report.h"
 #include "ui/report/html_text.h"
 #include "ui/report/recording_writer.h"
@@ -84,6 +84,7 @@ TEST_CASE("a page shows a flight whole, fetches nothing and lets no text through
     CHECK_THAT(page, Contains("1 of 28 frames took longer than 16.67 ms. In 1 of them draw took"));
     CHECK_THAT(page, Contains("draw by 25.00 ms"));
     CHECK_THAT(page, Contains("0000000000000aaa"));
+    CHECK_THAT(page, Contains("<td>rate</td><td class=\"code\">60</td>")); // left, as all values
     CHECK(html_report(recordings, first_tables) == page);
 }
 

@@ -95,9 +95,8 @@ TEST_CASE("a flight by hand leaves trim, turns where the stick goes, and its rec
     fs::create_directories(elsewhere);
     ui::report::pack_recording(folder, elsewhere / "by-hand.zip", false);
     fs::remove_all(folder);
-    CHECK(flown_again(ui::report::recording_folder(elsewhere / "by-hand.zip")) ==
-          run["summary"]["state_hash"].get<std::string>());
-    ui::report::remove_unpacked();
+    const ui::report::RecordingFolder packed = ui::report::open_recording(elsewhere / "by-hand.zip");
+    CHECK(flown_again(packed.path) == run["summary"]["state_hash"].get<std::string>());
     fs::remove_all(elsewhere);
 }
 

@@ -2,7 +2,7 @@
 #include "sim/links/udp_port.h"
 #include "tests/ui/window/virtual_display.h"
 #include "ui/flight/flight_recorder.h"
-#include "ui/flight/packet_replay.h"
+#include "ui/flight/replay.h"
 #include "ui/settings/settings_file.h"
 #include "ui/window/viewer.h"
 

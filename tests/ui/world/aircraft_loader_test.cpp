@@ -5,6 +5,8 @@
 #include "tests/scratch.h"
 #include "tests/ui/world/user_cache.h"
 #include "ui/world/aircraft_loader.h"
+#include "ui/world/mesh_loader.h"
+#include "ui/world/order_cache_folder.h"
 
 #include <catch2/catch.hpp>
 

@@ -9,6 +9,8 @@
 #include "tests/scratch.h"
 #include "ui/base/data_files.h"
 #include "ui/settings/settings.h"
+#include "ui/world/formation.h"
+#include "ui/world/picture_times.h"
 #include "ui/world/scene_ground.h"
 #include "ui/world/world.h"
 #include "visuals/landscape/ground.h"
@@ -30,22 +32,23 @@
 
 using namespace octant;
 using ui::settings::RunSettings;
+using ui::world::load_world;
 using ui::world::RenderDevice;
 using ui::world::World;
 
 namespace {
 
-/// Rolling ground of 26 by 26 km as a file.
-std::string rolling_ground() {
+/// Rolling ground of 26 by 26 km as a file, -100 to 100 m high and lifted.
+std::string rolling_ground(const std::string& name = "rolling.tif", double lift_m = 0.0) {
     constexpr int side = 257;
     std::vector<float> heights_m;
     for (int row = 0; row < side; ++row) {
         for (int column = 0; column < side; ++column) {
             heights_m.push_back(
-                static_cast<float>(std::lround(60.0 * std::sin(column / 9.0) + 40.0 * std::cos(row / 13.0))));
+                static_cast<float>(lift_m + std::round(60.0 * std::sin(column / 9.0) + 40.0 * std::cos(row / 13.0))));
         }
     }
-    const std::filesystem::path file = tests::scratch_folder() / "rolling.tif";
+    const std::filesystem::path file = tests::scratch_folder() / name;
     models::heights::write_height_field(file, {side, side, 101.5625, heights_m});
     return file.string();
 }
@@ -61,9 +64,9 @@ RunSettings over(const std::string& terrain) {
 TEST_CASE("a model is framed alike however its hidden surfaces are removed") {
     RunSettings settings = over("none");
     settings.path.aircraft = {OCTANT_SOURCE_DIR "/tests/fuzz/corpus/crash-bent-11.obj"};
-    const ui::world::World painted = ui::world::load_world(settings);
+    const World painted = load_world(settings);
     settings.surface.hidden_surface = visuals::scene::HiddenSurface::DepthBuffer;
-    const ui::world::World by_depth = ui::world::load_world(settings);
+    const World by_depth = load_world(settings);
     const auto& ordered = painted.scene.model_of(0);
     const auto& as_given = by_depth.scene.model_of(0);
     REQUIRE(ordered.polygons.vertices_m != as_given.polygons.vertices_m); // moved into planes
@@ -95,7 +98,7 @@ TEST_CASE("no point of a detailed aircraft is farther from the plain one than it
 TEST_CASE("a world has each model once, however many aircraft fly it, and the first one's cockpit") {
     RunSettings settings = over("none");
     settings.path.aircraft = {"500md", "f15", "500md"};
-    const ui::world::World world = ui::world::load_world(settings);
+    const World world = load_world(settings);
     CHECK(world.scene.aircraft == std::vector<std::uint32_t>{0, 1, 0});
     CHECK(world.scene.model_of(0).polygons.name == "500md");
     CHECK(world.scene.model_of(1).polygons.name == "f15");
@@ -104,31 +107,31 @@ TEST_CASE("a world has each model once, however many aircraft fly it, and the fi
     CHECK(ui::world::formation_of(world.scene, world.flight).framed_radius_m(1.0) > 1.0);
 }
 
-TEST_CASE("an aircraft that flies beyond its limits in formation is told of, once") {
-    const auto told = [](std::vector<std::string> aircraft, const std::string& path) {
+TEST_CASE("an aircraft that flies beyond its limits in formation is noted, once") {
+    const auto notes_of = [](std::vector<std::string> aircraft, const std::string& path) {
         RunSettings settings = over("none");
         settings.path.aircraft = std::move(aircraft);
         settings.path.name = path;
-        std::vector<std::string> notes = ui::world::load_world(settings).notes;
+        std::vector<std::string> notes = load_world(settings).notes;
         std::erase_if(
             notes, [](const std::string& note) { return note.find("beyond its limits") == std::string::npos; });
         return notes;
     };
     // 250 m/s are 486 kt; the 500MD's never-exceed speed is 152 kt.
-    CHECK(told({"f15", "500md", "500md"}, "straight") ==
+    CHECK(notes_of({"f15", "500md", "500md"}, "straight") ==
           std::vector<std::string>{"500md in formation is flown beyond its limits: speed in kt up to "
                                    "486 (at most 152)"});
     // A turn of 4 g at a bank of 75.5 degrees, the 500MD's limits are 2 g and 60 degrees.
-    const std::vector<std::string> in_turn = told({"f15", "500md"}, "turn");
+    const std::vector<std::string> in_turn = notes_of({"f15", "500md"}, "turn");
     REQUIRE(in_turn.size() == 1);
     CHECK_THAT(in_turn.front(), Catch::Contains("load factor up to 3.99") && Catch::Contains("bank"));
     // 60 m/s are 117 kt; the F-15's slowest is 80 m/s.
-    CHECK(told({"500md", "f15"}, "straight") == std::vector<std::string>{
-                                                    "f15 in formation is flown beyond its limits: speed in kt down to "
-                                                    "117 (at least 156)"});
+    CHECK(notes_of({"500md", "f15"}, "straight") ==
+          std::vector<std::string>{"f15 in formation is flown beyond its limits: speed in kt down to "
+                                   "117 (at least 156)"});
     for (const std::string path : {"straight", "jinking", "pop-up", "turn"}) {
-        CHECK(told({"f15", "f15-detailed"}, path).empty());
-        CHECK(told({"500md", "500md-detailed"}, path).empty());
+        CHECK(notes_of({"f15", "f15-detailed"}, path).empty());
+        CHECK(notes_of({"500md", "500md-detailed"}, path).empty());
     }
 }
 
@@ -137,7 +140,7 @@ TEST_CASE("a file is no known aircraft because of its name, and says whose path 
     write_file(file, "v 0 0 -4\nv 2 0 4\nv -2 0 4\nv 0 1 4\nf 1 2 3\nf 1 4 2\nf 1 3 4\nf 2 4 3\n");
     RunSettings settings = over("none");
     settings.path.aircraft = {file.string()};
-    const ui::world::World world = ui::world::load_world(settings);
+    const World world = load_world(settings);
     CHECK(world.leader_kind == nullptr);
     CHECK_FALSE(world.scene.cockpit);
     CHECK(glm::distance(world.scene.model_of(0).subject.pilot_eye_m, sim::aircraft_kind("f15").pilot_eye_m) > 0.1);
@@ -154,7 +157,7 @@ TEST_CASE("an OBJ file with pictures or glass flies as a mesh, which shows them"
                          "vt 0 0\nf 1/1 2/1 3/1\nf 1/1 4/1 2/1\nf 1/1 3/1 4/1\nf 2/1 4/1 3/1\n");
         RunSettings settings = over("none");
         settings.path.aircraft = {file.string()};
-        return ui::world::load_world(settings).scene.model_of(0).progressive != nullptr;
+        return load_world(settings).scene.model_of(0).progressive != nullptr;
     };
     write_file(folder / "skin.png", "of no use, which is noted");
     CHECK_FALSE(has_mesh("Kd 1 0 0"));
@@ -171,13 +174,13 @@ TEST_CASE("a path file of an unknown aircraft is refused with its line") {
                      "heading_deg = 0\nspeed_mps = 100\n[[leg]]\nfly = \"straight\"\nduration_s = 1\n");
     RunSettings settings = over("none");
     settings.path.name = file.string();
-    CHECK_THROWS_WITH(ui::world::load_world(settings),
-        Catch::Contains("kite.toml:2: expected aircraft f15 or 500md or f15-detailed or "
-                        "500md-detailed, got 'kite'"));
+    CHECK_THROWS_WITH(
+        load_world(settings), Catch::Contains("kite.toml:2: expected aircraft f15 or 500md or f15-detailed or "
+                                              "500md-detailed, got 'kite'"));
 }
 
 TEST_CASE("a path is laid over ground from a file with the clearance that it asks for") {
-    const ui::world::World world = ui::world::load_world(over(rolling_ground()));
+    const World world = load_world(over(rolling_ground()));
     CHECK(world.flight.lowest_clearance_m >= 150.0 - 1e-6);
     CHECK(world.flight.trajectory.end_s() == Approx(39.95).margin(0.06));
     CHECK(world.flight.rate_hz == 20.0);
@@ -193,8 +196,8 @@ TEST_CASE("a path is laid over ground from a file with the clearance that it ask
 TEST_CASE("aircraft with paths of their own begin beside the first one, by its clock") {
     RunSettings settings = over(rolling_ground());
     settings.path.aircraft = {"f15=pop-up", "500md=turn@2s", "f15", "f15=jinking"};
-    const ui::world::World world = ui::world::load_world(settings);
-    const ui::world::Flight& flight = world.flight;
+    const World world = load_world(settings);
+    const ui::world::PlacedFlight& flight = world.flight;
     CHECK(flight.title == "f15 pop-up over rolling");
     REQUIRE(flight.other_trajectories.size() == 2);
     const sim::Trajectory& turn = flight.other_trajectories.at(1);
@@ -217,9 +220,9 @@ TEST_CASE("aircraft with paths of their own begin beside the first one, by its c
     CHECK(states[1].time_s == start.time_s);
 
     settings.path.aircraft = {"f15=turn@2s"};
-    CHECK_THROWS_WITH(ui::world::load_world(settings), Catch::Contains("the first one to begin at 0 s"));
+    CHECK_THROWS_WITH(load_world(settings), Catch::Contains("the first one to begin at 0 s"));
     settings.path.aircraft = {"f15", "500md=no-such-path"};
-    CHECK_THROWS_AS(ui::world::load_world(settings), Error);
+    CHECK_THROWS_AS(load_world(settings), Error);
 }
 
 TEST_CASE("aircraft of an ACMI recording fly as they flew beside each other, each as what its type says") {
@@ -230,7 +233,7 @@ TEST_CASE("aircraft of an ACMI recording fly as they flew beside each other, eac
     RunSettings settings = over(rolling_ground());
     settings.path.name = file.string();
     settings.path.heading_deg = 90.0;
-    const ui::world::World world = ui::world::load_world(settings);
+    const World world = load_world(settings);
     CHECK(world.scene.aircraft.size() == 2);
     CHECK(world.scene.model_of(1).polygons.name == "500md");
     REQUIRE(world.flight.other_trajectories.size() == 1);
@@ -249,18 +252,18 @@ TEST_CASE("an ACMI recording that leaves the map is refused with its name") {
     RunSettings settings = over(rolling_ground());
     settings.path.name = file.string();
     CHECK_THROWS_WITH(
-        ui::world::load_world(settings), Catch::Contains("far.acmi: path leaves the map at every heading") &&
-                                             Catch::EndsWith("km north of its middle, and --terrain none has no end"));
+        load_world(settings), Catch::Contains("far.acmi: path leaves the map at every heading") &&
+                                  Catch::EndsWith("km north of its middle, and --terrain none has no end"));
 }
 
 TEST_CASE("what cannot be loaded is said before anything is flown") {
-    CHECK_THROWS_AS(ui::world::load_world(over("no-such-ground.tif")), Error);
+    CHECK_THROWS_AS(load_world(over("no-such-ground.tif")), Error);
     RunSettings settings = over("none");
     settings.path.aircraft = {"no-such-aircraft"};
-    CHECK_THROWS_AS(ui::world::load_world(settings), Error);
+    CHECK_THROWS_AS(load_world(settings), Error);
     RunSettings off_the_map = over(rolling_ground());
     off_the_map.path.place = "12000,12000";
-    CHECK_THROWS_AS(ui::world::load_world(off_the_map), Error);
+    CHECK_THROWS_AS(load_world(off_the_map), Error);
 }
 
 TEST_CASE("a ground is loaded with what is to be said of it, and textured where that is asked") {
@@ -279,7 +282,7 @@ TEST_CASE("a ground is loaded with what is to be said of it, and textured where 
 
 TEST_CASE("pictures are taken at the path's samples or at a rate, as long as is asked for") {
     RunSettings settings = over("none");
-    const ui::world::Flight flight = ui::world::load_world(settings).flight;
+    const ui::world::PlacedFlight flight = load_world(settings).flight;
     settings.time.seconds = 2.0;
     CHECK(ui::world::picture_times_of(settings, flight).times_s.size() == 121);
     settings.time.frame_per_sample = true;
@@ -295,10 +298,10 @@ TEST_CASE("pictures are taken at the path's samples or at a rate, as long as is 
 TEST_CASE("the tower of a known flight stands by it; a live one's says that it knows no flight") {
     RunSettings settings = over(rolling_ground());
     settings.view.kind = octant::visuals::scene::View::Tower;
-    const auto says_so = [](const ui::world::World& world) {
+    const auto says_so = [](const World& world) {
         return std::ranges::any_of(world.notes, [](const std::string& note) { return note.starts_with("tower: "); });
     };
-    const ui::world::World known = ui::world::load_world(settings);
+    const World known = load_world(settings);
     CHECK(!says_so(known));
     double nearest_m = 1e9;
     for (const sim::AircraftState& state : known.flight.trajectory.samples()) {
@@ -306,7 +309,7 @@ TEST_CASE("the tower of a known flight stands by it; a live one's says that it k
     }
     CHECK(nearest_m < 3000.0);
     settings.path.name = std::string(ui::settings::live_path);
-    const ui::world::World live = ui::world::load_world(settings);
+    const World live = load_world(settings);
     CHECK(says_so(live));
     CHECK(live.scene.path == nullptr);
     REQUIRE(known.scene.path != nullptr);
@@ -317,10 +320,9 @@ TEST_CASE("clouds that would lie in the ground are refused with its height") {
     RunSettings settings = over(rolling_ground());
     settings.air.clouds = 0.4;
     settings.air.cloud_height_m = 101.0;
-    CHECK_NOTHROW(ui::world::load_world(settings));
+    CHECK_NOTHROW(load_world(settings));
     settings.air.cloud_height_m = 99.0;
-    CHECK_THROWS_WITH(
-        ui::world::load_world(settings), "--cloud-height: expected more than the highest ground, 100.0 m, got 99");
+    CHECK_THROWS_WITH(load_world(settings), "--cloud-height: expected more than the highest ground, 100.0 m, got 99");
 }
 
 namespace {
@@ -361,20 +363,6 @@ TEST_CASE("no aircraft of a formation flies below its leader") {
 
 namespace {
 
-/// Rolling ground of 26 by 26 km as a file.
-std::string rolling_ground(const std::string& name, double lift_m) {
-    constexpr int side = 257;
-    std::vector<float> heights_m;
-    for (int row = 0; row < side; ++row) {
-        for (int column = 0; column < side; ++column) {
-            heights_m.push_back(static_cast<float>(lift_m + 60.0 * std::sin(column / 9.0) + row / 13.0));
-        }
-    }
-    const std::filesystem::path file = tests::scratch_folder() / name;
-    models::heights::write_height_field(file, {side, side, 101.5625, heights_m});
-    return file.string();
-}
-
 const std::string corners = "v 0 0 -4\nv 2 0 4\nv -2 0 4\nv 0 1 4\n";
 
 std::filesystem::path wedge(const std::string& head) {
@@ -389,7 +377,7 @@ void age(const std::filesystem::path& file) {
 }
 
 World shared_world(const RunSettings& settings, const World& other) {
-    return ui::world::load_world(settings, RenderDevice::Cpu, &other);
+    return load_world(settings, RenderDevice::Cpu, &other);
 }
 
 } // namespace
@@ -397,9 +385,9 @@ World shared_world(const RunSettings& settings, const World& other) {
 TEST_CASE("a world shares with another what is loaded of the same inputs, and loads the rest") {
     const std::filesystem::path shape = wedge("");
     RunSettings settings;
-    settings.path.terrain = rolling_ground("rolling.tif", 0.0);
+    settings.path.terrain = rolling_ground();
     settings.path.aircraft = {shape.string()};
-    const World first = ui::world::load_world(settings);
+    const World first = load_world(settings);
 
     settings.path.name = "turn";
     const World turn = shared_world(settings, first);
@@ -437,7 +425,7 @@ TEST_CASE("what a shared world's files name is loaded anew once it is written an
     const std::filesystem::path materials = tests::scratch_folder() / "wedge.mtl";
     write_file(materials, "newmtl one\nKd 1 0 0\n");
     const std::filesystem::path shape = wedge("mtllib wedge.mtl\nusemtl one\n");
-    const std::filesystem::path heights = rolling_ground("behind.tif", 0.0);
+    const std::filesystem::path heights = rolling_ground("behind.tif");
     const std::filesystem::path map = tests::scratch_folder() / "map.vrt";
     write_file(map, "<VRTDataset rasterXSize=\"257\" rasterYSize=\"257\"><GeoTransform>0, 101.5625, 0, 0, 0, "
                     "-101.5625</GeoTransform><VRTRasterBand dataType=\"Float32\" band=\"1\"><SimpleSource>"
@@ -446,7 +434,7 @@ TEST_CASE("what a shared world's files name is loaded anew once it is written an
     RunSettings settings;
     settings.path.terrain = map.string();
     settings.path.aircraft = {shape.string()};
-    const World first = ui::world::load_world(settings);
+    const World first = load_world(settings);
     const World same = shared_world(settings, first);
     CHECK(same.scene.ground == first.scene.ground);
     CHECK(same.scene.models.front() == first.scene.models.front());
@@ -510,7 +498,7 @@ void count(const char* path, const char* aircraft, const char* terrain, Pictures
     settings.path.aircraft = {aircraft};
     settings.path.terrain = terrain;
     settings.view.kind = visuals::scene::View::Tower;
-    const ui::world::World world = ui::world::load_world(settings);
+    const World world = load_world(settings);
     const visuals::landscape::Ground& ground = *world.scene.ground;
     const double radius_m = world.scene.model_of(0).subject.radius_m;
     const sim::Trajectory& flight = world.flight.trajectory;

@@ -5,7 +5,7 @@
 #include "sim/base/thread_pool.h"
 #include "ui/base/progress.h"
 #include "ui/studies/study.h"
-#include "ui/world/scene_ground.h"
+#include "ui/world/height_loader.h"
 #include "visuals/scene/camera.h"
 #include "visuals/terrain/bisection_ground_builder.h"
 #include "visuals/terrain/bisection_mesher.h"

@@ -2,11 +2,15 @@
 
 #include "ui/base/data_files.h"
 #include "ui/base/progress.h"
+#include "ui/flight/session.h"
+#include "ui/flight/simulation.h"
 #include "ui/terrain/ground_view.h"
 #include "ui/terrain/mesh_maker.h"
-#include "ui/world/scene_ground.h"
+#include "ui/world/height_loader.h"
+#include "ui/world/picture_times.h"
 #include "ui/world/world.h"
 #include "visuals/landscape/ground.h"
+#include "visuals/scene/camera_rig.h"
 #include "visuals/terrain/frustum.h"
 #include "visuals/terrain/ground_query.h"
 #include "visuals/terrain/mesh_measurement.h"
@@ -29,8 +33,6 @@
 
 namespace octant::ui::studies::flicker {
 
-// What is left of flicker: pictures of a flight compared after the motion is taken out.
-
 namespace terrain = visuals::terrain;
 
 namespace {
@@ -47,8 +49,29 @@ glm::dvec3 lowered(glm::dvec3 place_m, const glm::dvec3& eye_m, double radius_m)
     return place_m;
 }
 
+/// The cameras of all frames of a run, as a session with these settings has them, without drawing. Loads the world.
+/// Throws Error.
+std::vector<FlightCamera> flight_cameras(const settings::RunSettings& settings) {
+    const world::World world = world::load_world(settings);
+    const world::PictureTimes times = world::picture_times_of(settings, world.flight);
+    const GroundHeight ground = [&](double x_m, double y_m) { return world.scene.ground->height_at(x_m, y_m); };
+    flight::Simulation simulation(world);
+    simulation.begin_at(times.times_s.front());
+    visuals::scene::Subject subject = world.scene.model_of(0).subject;
+    subject.radius_m = simulation.formation().framed_radius_m(subject.radius_m);
+    std::vector<FlightCamera> cameras;
+    for (const double time_s : times.times_s) {
+        simulation.advance_to(time_s);
+        const sim::AircraftState& state = simulation.states().front();
+        cameras.push_back(
+            {visuals::scene::camera_of(settings.view, state, simulation.rig(), subject, world.points, ground),
+                state.position_m, subject.radius_m});
+    }
+    return cameras;
+}
+
 /// Whether a pixel, from the middle, lies near the aircraft's.
-bool near_aircraft(const flight::FlightCamera& frame, const terrain::PerspectiveView& view, const glm::dvec2& pixel) {
+bool near_aircraft(const FlightCamera& frame, const terrain::PerspectiveView& view, const glm::dvec2& pixel) {
     const glm::dvec3 seen = view.seen_m(frame.aircraft_m - view.eye_m);
     if (seen.z <= frame.aircraft_radius_m) { return seen.z > -frame.aircraft_radius_m; }
     const double radius_px = 1.5 * view.focal_px * frame.aircraft_radius_m / seen.z;
@@ -85,9 +108,8 @@ double luminance_between(const visuals::scene::Picture& picture, const glm::dvec
 
 } // namespace
 
-std::vector<ReprojectedPixel> reprojected_pixels(const terrain::GroundSamples& ground,
-    const flight::FlightCamera& earlier, const flight::FlightCamera& later, const glm::ivec2& size_px,
-    double radius_m) {
+std::vector<ReprojectedPixel> reprojected_pixels(const terrain::GroundSamples& ground, const FlightCamera& earlier,
+    const FlightCamera& later, const glm::ivec2& size_px, double radius_m) {
     const terrain::PerspectiveView before = ui::terrain::picture_view(earlier.camera, size_px);
     const terrain::PerspectiveView now = ui::terrain::picture_view(later.camera, size_px);
     const glm::dvec2 corner(-now.half_width_px + 0.5, now.half_height_px - 0.5);
@@ -146,7 +168,7 @@ struct Change {
 Change shimmer_along(
     const settings::RunSettings& flown, const ui::terrain::LoadedGround& ground, std::size_t every, bool quiet) {
     const terrain::GroundSamples samples = ground.samples();
-    const std::vector<flight::FlightCamera> cameras = flight::flight_cameras(flown);
+    const std::vector<FlightCamera> cameras = flight_cameras(flown);
     Sessions sessions;
     for (const DrawnWay& way : drawn_ways) {
         settings::RunSettings settings = flown;
@@ -278,8 +300,8 @@ MeshOfFrame ground_with_detail(settings::RunSettings settings) {
     };
 }
 
-Jumps jumps_along(const MeshOfFrame& mesh_of, const settings::RunSettings& settings,
-    const std::vector<flight::FlightCamera>& cameras) {
+Jumps jumps_along(
+    const MeshOfFrame& mesh_of, const settings::RunSettings& settings, const std::vector<FlightCamera>& cameras) {
     terrain::PoppingMeter meter;
     Jumps found;
     for (std::size_t frame = 0; frame < cameras.size(); ++frame) {
@@ -311,12 +333,12 @@ report::ResultTable popping_table(const PoppingStudyOptions& options) {
         "--triangles with fewer, or --terrain with a larger map");
     base::print_note(options.quiet || asked == terrain::unlimited_triangles || !few, few.value_or(""));
     std::vector<settings::RunSettings> flown(base::built_in_paths.size(), options.settings);
-    std::vector<std::vector<flight::FlightCamera>> cameras;
+    std::vector<std::vector<FlightCamera>> cameras;
     std::vector<MeshedPath> cases;
     const auto ways = std::span(meshings).first(meshings.size() - (options.settings.ground.near_detail ? 0 : 1));
     for (std::size_t path = 0; path < flown.size(); ++path) {
         flown[path].path.name = std::string(base::built_in_paths[path]);
-        cameras.push_back(flight::flight_cameras(flown[path]));
+        cameras.push_back(flight_cameras(flown[path]));
         for (const Meshing& way : ways) { cases.push_back({path, &way}); }
     }
     base::Progress progress("popping", static_cast<int>(cases.size()), options.quiet, "flights");

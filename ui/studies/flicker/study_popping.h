@@ -1,15 +1,26 @@
 #pragma once
 
-#include "ui/flight/session.h"
+#include "ui/settings/settings.h"
 #include "ui/studies/study.h"
+#include "visuals/scene/camera.h"
 #include "visuals/scene/picture.h"
 #include "visuals/terrain/ground_query.h"
 
 #include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
 
 #include <vector>
 
 namespace octant::ui::studies::flicker {
+
+/// From where one frame of a run is seen.
+struct FlightCamera {
+    visuals::scene::Camera camera;
+    /// Where the first aircraft is.
+    glm::dvec3 aircraft_m{0.0};
+    /// The radius of a sphere around it.
+    double aircraft_radius_m = 0.0;
+};
 
 /// A pixel of one frame, and the position of its ground point in the previous frame.
 struct ReprojectedPixel {
@@ -20,7 +31,7 @@ struct ReprojectedPixel {
 /// Every fourth pixel, both ways, of the later frame that shows ground which the earlier one shows too, at full
 /// resolution; not those near the aircraft. `radius_m`: of the earth, 0 = flat.
 std::vector<ReprojectedPixel> reprojected_pixels(const visuals::terrain::GroundSamples& ground,
-    const flight::FlightCamera& earlier, const flight::FlightCamera& later, const glm::ivec2& size_px, double radius_m);
+    const FlightCamera& earlier, const FlightCamera& later, const glm::ivec2& size_px, double radius_m);
 
 /// Mean absolute change of luminance (0 to 255) over the pixels; 0 if there are none.
 double mean_change(const visuals::scene::Picture& earlier, const visuals::scene::Picture& later,

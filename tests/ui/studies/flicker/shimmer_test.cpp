@@ -8,7 +8,6 @@
 #include <cmath>
 
 using namespace octant;
-using namespace octant::ui::flight;
 using namespace octant::ui::studies::flicker;
 using namespace octant::ui::terrain;
 

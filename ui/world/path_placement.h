@@ -1,13 +1,12 @@
 #pragma once
 
 #include "flightpaths/fly_script.h"
-#include "models/heights/runway_strip.h"
-#include "sim/aircraft_state.h"
 #include "sim/base/axes.h"
 #include "sim/base/earth_frame.h"
 #include "sim/trajectory.h"
 #include "ui/settings/aircraft_entry.h"
 #include "ui/settings/settings.h"
+#include "ui/world/path_loader.h"
 #include "ui/world/scene_ground.h"
 
 #include <glm/vec2.hpp>
@@ -21,41 +20,20 @@
 
 namespace octant::ui::world {
 
-/// A path or a recorded track as its file gives it, before it is placed over ground.
-struct LoadedPath {
-    sim::Trajectory trajectory;
-    double rate_hz = 0.0;
-    double min_clearance_m = 0.0;
-    /// Of the aircraft, where its type is known.
-    std::optional<sim::AircraftLimits> limits;
-    /// Geographic origin of a track with positions; its axes are those of the TransverseMercator frame there.
-    std::optional<GeoPosition> origin;
-    std::vector<flightpaths::LegStart> legs;
-    std::vector<std::string> notes;
-    /// The other aircraft of an ACMI recording, in the axes and on the clock of the first one, and the built-in
-    /// aircraft that shows each of them.
-    std::vector<sim::Trajectory> other_trajectories;
-    std::vector<std::string> other_aircraft;
-    bool is_acmi_recording = false;
-};
-
-/// Loads a path by its name or file for an aircraft of this shape. Throws Error.
-LoadedPath load_path(const std::string& path, const std::string& shape, bool lenient);
-
-/// A path placed over the ground of a run.
-struct Flight {
+/// The paths of all aircraft of a run over its ground: the first one's, and those of aircraft with a path of their own.
+struct PlacedFlight {
     /// States in world axes.
     sim::Trajectory trajectory;
     std::string title;
     /// Samples a second.
     double rate_hz = 20.0;
-    /// Where the path's origin lies.
+    /// World position of the origin of the path.
     glm::dvec2 place_m{0.0};
-    /// How far the path was turned, clockwise.
+    /// Clockwise turn of the path.
     double heading_rad = 0.0;
-    /// How far the path was lifted.
+    /// Height that was added to the path.
     double offset_m = 0.0;
-    /// The least height above the ground, and when it is flown at.
+    /// The least height above the ground, and its time.
     double lowest_clearance_m = 0.0;
     double lowest_clearance_s = 0.0;
     std::vector<flightpaths::LegStart> legs;
@@ -74,9 +52,6 @@ glm::dvec2 path_origin_from_text(const std::string& text, const EarthFrame* map_
 /// no more of a map than where it lies.
 void check_path_origin(const settings::PathSettings& settings);
 
-/// The first aircraft's path: its own, or that of the settings.
-std::string path_of(const settings::RunSettings& settings);
-
 /// Where a path was placed.
 struct PathPlacement {
     glm::dvec2 place_m{0.0};
@@ -87,7 +62,7 @@ struct PathPlacement {
 struct PlacementGround {
     GroundHeight height_at;
     glm::dvec2 half_extent_m{0.0};
-    /// How it lies on the earth; null for generated ground.
+    /// Its axes on the earth; null for generated ground.
     std::shared_ptr<const EarthFrame> frame;
 };
 
@@ -96,25 +71,17 @@ PlacementGround placement_ground(const SceneGround& ground);
 
 /// The flight of a run whose aircraft other programs fly: the first one waits there until packets move it. Throws
 /// Error.
-Flight live_flight(const settings::RunSettings& settings, const PlacementGround& ground);
+PlacedFlight live_flight(const settings::RunSettings& settings, const PlacementGround& ground);
 
 /// Places the first aircraft's path over the ground, with the other aircraft of its ACMI recording, and appends notes
 /// for the user. `given_placement` replaces what the settings and the ground say. Throws Error.
-Flight place_flight(const settings::RunSettings& settings, LoadedPath loaded, const PlacementGround& ground,
+PlacedFlight place_flight(const settings::RunSettings& settings, LoadedPath loaded, const PlacementGround& ground,
     std::vector<std::string>& notes, const std::optional<PathPlacement>& given_placement = std::nullopt);
 
 /// An aircraft's own path over the ground: it begins at this place, turned as the first one's, unless it knows where it
 /// was flown. Throws Error.
 sim::Trajectory own_path(const settings::RunSettings& settings, const settings::AircraftEntry& flown,
-    const glm::dvec2& begin_m, const PlacementGround& ground, const Flight& first, std::vector<std::string>& notes);
-
-/// Finds the runway of a run where its first aircraft begins, along its heading, or near there; null where the settings
-/// ask for none. `script`: nothing where others fly the aircraft. `given_placement` is set to where the path lies over
-/// the ground before that is levelled. All must outlive it.
-RunwayFinder make_runway_finder(const settings::RunSettings& settings, const std::optional<LoadedPath>& script,
-    std::optional<PathPlacement>& given_placement);
-
-/// Says where it lies already; null where there is none.
-RunwayFinder fixed_runway_finder(std::shared_ptr<const models::heights::RunwayStrip> runway);
+    const glm::dvec2& begin_m, const PlacementGround& ground, const PlacedFlight& first,
+    std::vector<std::string>& notes);
 
 } // namespace octant::ui::world

@@ -4,7 +4,8 @@
 #include "sim/base/error.h"
 #include "sim/base/units.h"
 #include "tests/scratch.h"
-#include "ui/world/flight.h"
+#include "ui/world/path_placement.h"
+#include "ui/world/runway_finder.h"
 #include "ui/world/world.h"
 
 #include <catch2/catch.hpp>

@@ -1,0 +1,43 @@
+#pragma once
+
+#include "models/meshfile/level_chain.h"
+#include "models/meshfile/mesh_file.h"
+#include "models/polygons/polygon_model.h"
+#include "visuals/planning/aircraft_model.h"
+#include "visuals/refine/progressive_mesh.h"
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace octant::ui::world {
+
+/// An aircraft of a mesh file, in body axes: levels of detail or a vertex hierarchy, and polygons for far away.
+struct MeshAircraft {
+    /// Levels of detail, the finest first; none where there is a hierarchy.
+    std::vector<models::meshfile::ChainLevel> levels;
+    /// Null where there are levels.
+    std::shared_ptr<const visuals::refine::ProgressiveMesh> hierarchy;
+    /// Parts that turn, which the hierarchy leaves out; its pivots are those of the polygons.
+    std::vector<models::meshfile::RotatingPart> turning;
+    /// Transparent surfaces, which the hierarchy leaves out; often none.
+    models::meshfile::TransparentSurfaces clear;
+    /// Drawn in place of the mesh far away.
+    models::polygons::PolygonModel polygons;
+    /// No point of the polygons is farther than this from the mesh, nor of the mesh from them.
+    double polygons_error_m = 0.0;
+    std::vector<std::string> notes;
+};
+
+/// Reads a chain of levels (.chain), a progressive mesh (.pm) or any other mesh file. A hierarchy is made of the last,
+/// or read from the folder `cache` if that has it; empty: no cache. `axes`: as aircraft_axes() takes them. Throws
+/// Error.
+MeshAircraft read_mesh_aircraft(
+    const std::filesystem::path& file, const std::string& axes, const std::filesystem::path& cache);
+
+/// Adds levels or hierarchy, turning parts and transparent surfaces to the model that was made of the aircraft's
+/// polygons.
+void add_meshes(visuals::planning::AircraftModel& model, const MeshAircraft& aircraft);
+
+} // namespace octant::ui::world
