@@ -10,6 +10,7 @@
 #include "visuals/bsp/partial_bsp_tree.h"
 
 #include "models/polygons/polygon_outlines.h"
+#include "sim/base/bit_set.h"
 #include "visuals/bsp/component_search.h"
 #include "visuals/bsp/piece_batch.h"
 
@@ -342,58 +343,36 @@ std::optional<Plane> splitting_plane(const PolygonPieces& pieces, std::span<cons
 
 // What hides what for eyes anywhere, and which pieces have an order that is right for all of them.
 
-/// A square of bits, 64 to a word.
-class BitMatrix {
-public:
-    explicit BitMatrix(std::size_t count) : words_((count + 63) / 64), bits_(words_ * 64 * words_, 0) {}
+using BitBlock = std::array<std::uint64_t, 64>;
 
-    std::size_t words() const { return words_; }
+/// 64 rows of one word, transposed by halves, quarters and so on.
+BitBlock transposed_block(const BitMatrix& bits, std::size_t first_row, std::size_t word) {
+    BitBlock block;
+    for (std::size_t i = 0; i < 64; ++i) { block[i] = bits.row(first_row + i)[word]; }
+    std::uint64_t mask = 0xffffffffU;
+    for (unsigned width = 32; width != 0; width /= 2, mask ^= mask << width) {
+        for (unsigned i = 0; i < 64; i = (i + width + 1) & ~width) {
+            const std::uint64_t swapped = ((block[i] >> width) ^ block[i + width]) & mask;
+            block[i] ^= swapped << width;
+            block[i + width] ^= swapped;
+        }
+    }
+    return block;
+}
 
-    std::uint64_t& word(std::size_t row, std::size_t word) { return bits_[row * words_ + word]; }
-
-    void add(std::size_t row, std::size_t column) { word(row, column / 64) |= std::uint64_t{1} << (column % 64); }
-
-    void remove(std::size_t row, std::size_t column) { word(row, column / 64) &= ~(std::uint64_t{1} << (column % 64)); }
-
-    /// Rows become columns, block by block.
-    void transpose() {
-        for (std::size_t row = 0; row < words_; ++row) {
-            for (std::size_t column = 0; column <= row; ++column) {
-                const Block lower = transposed_block(row, column);
-                put(column, row, transposed_block(column, row), lower);
+/// Rows become columns, block by block. `bits` is square with a multiple of 64 rows.
+void transpose(BitMatrix& bits) {
+    for (std::size_t row = 0; row < bits.row_words(); ++row) {
+        for (std::size_t column = 0; column <= row; ++column) {
+            const BitBlock upper = transposed_block(bits, 64 * row, column);
+            const BitBlock lower = transposed_block(bits, 64 * column, row);
+            for (std::size_t i = 0; i < 64; ++i) {
+                bits.row(64 * column + i)[row] = upper[i];
+                bits.row(64 * row + i)[column] = lower[i];
             }
         }
     }
-
-private:
-    using Block = std::array<std::uint64_t, 64>;
-
-    /// A block of 64 rows and columns, transposed by halves, quarters and so on.
-    Block transposed_block(std::size_t row, std::size_t column) {
-        Block block;
-        for (std::size_t i = 0; i < 64; ++i) { block[i] = word(row * 64 + i, column); }
-        std::uint64_t mask = 0xffffffffU;
-        for (unsigned width = 32; width != 0; width /= 2, mask ^= mask << width) {
-            for (unsigned i = 0; i < 64; i = (i + width + 1) & ~width) {
-                const std::uint64_t swapped = ((block[i] >> width) ^ block[i + width]) & mask;
-                block[i] ^= swapped << width;
-                block[i + width] ^= swapped;
-            }
-        }
-        return block;
-    }
-
-    /// Writes two blocks that have changed places.
-    void put(std::size_t row, std::size_t column, const Block& across, const Block& here) {
-        for (std::size_t i = 0; i < 64; ++i) {
-            word(column * 64 + i, row) = across[i];
-            word(row * 64 + i, column) = here[i];
-        }
-    }
-
-    std::size_t words_;
-    std::vector<std::uint64_t> bits_; ///< Rows in multiples of 64.
-};
+}
 
 /// Whether a line along an edge of `a` parts it from `b`; both lie in the plane of `a`.
 bool has_separating_edge(const PolygonPieces& pieces, const PolygonPiece& a, const PolygonPiece& b) {
@@ -413,11 +392,10 @@ bool is_decal_on(const PolygonPieces& pieces, std::uint32_t upper, std::uint32_t
 class OccluderRow {
 public:
     OccluderRow(const PolygonPieces& pieces, std::span<const std::uint32_t> items)
-        : pieces_(pieces), items_(items), hides_(items.size()), reaches_behind_(items.size()),
-          still_(hides_.words(), 0) {
+        : pieces_(pieces), items_(items), hides_(rows(), rows()), reaches_behind_(rows(), rows()), still_(rows()) {
         for (std::size_t i = 0; i < items.size(); ++i) {
             const PolygonPiece& piece = pieces[items[i]];
-            still_[i / 64] |= std::uint64_t{piece.plane && !piece.pivot} << (i % 64);
+            if (piece.plane && !piece.pivot) { still_.add(i); }
         }
     }
 
@@ -426,10 +404,10 @@ public:
         for (std::size_t a = 0; a < items_.size(); ++a) {
             if (is_still(a)) { look_from(table, a); }
         }
-        reaches_behind_.transpose(); // now row a holds behind whose planes a reaches
+        transpose(reaches_behind_); // now row a holds behind whose planes a reaches
         for (std::size_t a = 0; a < items_.size(); ++a) {
-            for (std::size_t i = 0; i < hides_.words() && is_still(a); ++i) {
-                hides_.word(a, i) &= reaches_behind_.word(a, i) & still_[i];
+            for (std::size_t i = 0; i < hides_.row_words() && is_still(a); ++i) {
+                hides_.row(a)[i] &= reaches_behind_.row(a)[i] & still_.words()[i];
             }
             add_others(a);
             hides_.remove(a, a);
@@ -439,14 +417,17 @@ public:
     }
 
 private:
+    /// A row for each item, in a whole number of blocks.
+    std::size_t rows() const { return (items_.size() + 63) / 64 * 64; }
+
     /// Whether a piece has a plane that stands still.
-    bool is_still(std::size_t i) const { return ((still_[i / 64] >> (i % 64)) & 1U) != 0; }
+    bool is_still(std::size_t i) const { return still_.has(i); }
 
     /// Looks at the pairs of which one has no plane that stands still.
     void add_others(std::size_t a) {
-        for (std::size_t i = 0; i < still_.size(); ++i) {
+        for (std::size_t i = 0; i < still_.words().size(); ++i) {
             const std::size_t end = std::min((i + 1) * 64, items_.size());
-            const bool all_still = std::popcount(still_[i]) == static_cast<int>(end - i * 64);
+            const bool all_still = std::popcount(still_.words()[i]) == static_cast<int>(end - i * 64);
             for (std::size_t b = i * 64; b < end && !(is_still(a) && all_still); ++b) {
                 if (!(is_still(a) && is_still(b)) && occludes(pieces_, items_[b], items_[a])) { hides_.add(a, b); }
             }
@@ -457,9 +438,9 @@ private:
     void look_from(const PieceTable& table, std::size_t a) {
         for (std::size_t i = 0; i < table.blocks(); ++i) {
             const PlaneSideBits sides_reached = table.sides_reached(i, *pieces_[items_[a]].plane);
-            hides_.word(a, i) = sides_reached.before;
-            reaches_behind_.word(a, i) = sides_reached.behind;
-            for (std::uint64_t left = still_[i] & ~(sides_reached.before | sides_reached.behind); left != 0;
+            hides_.row(a)[i] = sides_reached.before;
+            reaches_behind_.row(a)[i] = sides_reached.behind;
+            for (std::uint64_t left = still_.words()[i] & ~(sides_reached.before | sides_reached.behind); left != 0;
                  left &= left - 1) {
                 const std::size_t b = i * 64 + static_cast<std::size_t>(std::countr_zero(left));
                 if (b != a && is_decal_on(pieces_, items_[b], items_[a])) { decals_.emplace_back(b, a); }
@@ -471,7 +452,7 @@ private:
     std::span<const std::uint32_t> items_;
     BitMatrix hides_;          ///< At first what reaches before the plane of the row's piece.
     BitMatrix reaches_behind_; ///< What reaches behind it.
-    std::vector<std::uint64_t> still_;
+    BitSet still_;
     std::vector<std::pair<std::size_t, std::size_t>> decals_; ///< In one plane: upper, lower.
 };
 
@@ -494,7 +475,7 @@ std::vector<std::vector<std::uint32_t>> occlusion_components(
     std::iota(last_first.rbegin(), last_first.rend(), 0U);
     std::vector<std::vector<std::uint32_t>> components;
     ComponentSearch().search(
-        items.size(), last_first, [&](std::uint32_t a, std::size_t word) { return hides.word(a, word); },
+        items.size(), last_first, [&](std::uint32_t a, std::size_t word) { return hides.row(a)[word]; },
         [&](std::span<const std::uint32_t> found) {
             std::vector<std::uint32_t>& component = components.emplace_back();
             for (const std::uint32_t i : found) { component.push_back(items[i]); }

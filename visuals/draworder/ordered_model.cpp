@@ -202,7 +202,7 @@ private:
 
     void add_turning_part(const Polygons& polygons, std::uint32_t pivot) {
         const ModelFaces faces = model_faces(alone(model_, polygons, pivot), glm::dvec3(0.0));
-        PolygonSet all(polygons.size());
+        BitSet all(polygons.size());
         for (std::size_t i = 0; i < polygons.size(); ++i) {
             all.add(i);
             std::vector<glm::dvec3> swept_m;
