@@ -1,5 +1,6 @@
 #include "ui/studies/flicker/study_popping.h"
 
+#include "sim/base/nearest_rank.h"
 #include "sim/base/thread_pool.h"
 #include "ui/base/data_files.h"
 #include "ui/base/progress.h"
@@ -298,10 +299,7 @@ Jumps jumps_along(const MeshOfFrame& mesh_of, const settings::RunSettings& setti
     return found;
 }
 
-double percentile_px(std::vector<double> jumps_px, int permille) {
-    std::sort(jumps_px.begin(), jumps_px.end());
-    return report::nearest_rank(jumps_px, permille);
-}
+double percentile_px(std::vector<double> jumps_px, int permille) { return nearest_rank(jumps_px, permille); }
 
 void add_popping(report::ResultTable& table, const std::string& path, const Meshing& way, const Jumps& found) {
     table.add({{"path", path}, {"mesh", way.name}, {"frames", found.jumps_px.size()},

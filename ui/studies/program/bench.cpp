@@ -2,6 +2,8 @@
 
 #include "sim/base/error.h"
 #include "sim/base/hash.h"
+#include "sim/base/nearest_rank.h"
+#include "sim/base/stopwatch.h"
 #include "ui/base/json_value.h"
 #include "ui/base/progress.h"
 #include "ui/command_line/setting_option.h"
@@ -13,7 +15,6 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
-#include <ctime>
 #include <filesystem>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -164,8 +165,8 @@ public:
 
     report::FrameRecord draw() {
         report::FrameRecord record;
-        const base::Stopwatch whole;
-        base::Stopwatch stage;
+        const Stopwatch whole;
+        Stopwatch stage;
         renderer_->draw(plan_);
         renderer_->finish();
         record.draw_ms = stage.lap_ms();
@@ -185,17 +186,7 @@ private:
     scene::Picture picture_;
 };
 
-/// Time that this program's threads have taken of processors.
-double cpu_ms_so_far() {
-    timespec time{};
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
-    return 1e3 * static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_nsec);
-}
-
-double median(std::vector<double> values) {
-    std::sort(values.begin(), values.end());
-    return report::nearest_rank(values, 500);
-}
+double median(std::vector<double> values) { return nearest_rank(values, 500); }
 
 /// Frames of one scene and the hash of what they showed.
 struct Timed {
@@ -313,11 +304,11 @@ std::vector<BenchResult> timed_in_turn(const std::vector<BenchScene>& scenes, co
     base::Progress progress("bench", frames, options.quiet);
     for (int frame = 0; frame < frames; ++frame) {
         const bool counts = frame >= warm_up_frames;
-        double before_ms = cpu_ms_so_far();
+        double before_ms = 1e3 * process_cpu_s();
         const auto add = [&](Timed& to, const report::FrameRecord& record, const auto& drawn) {
-            const double after_ms = cpu_ms_so_far();
+            const double after_ms = 1e3 * process_cpu_s();
             if (counts) { to.add(record, after_ms - before_ms, drawn.picture()); }
-            before_ms = cpu_ms_so_far();
+            before_ms = 1e3 * process_cpu_s();
         };
         add(timed[0], floor.draw(), floor);
         for (std::size_t i = 0; i < sessions.size(); ++i) {

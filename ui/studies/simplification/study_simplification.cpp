@@ -5,10 +5,10 @@
 #include "models/repair/repair.h"
 #include "models/simplify/simplify.h"
 #include "sim/base/error.h"
+#include "sim/base/stopwatch.h"
 #include "sim/base/thread_pool.h"
 #include "ui/base/data_files.h"
 #include "ui/base/progress.h"
-#include "ui/base/stopwatch.h"
 #include "ui/report/child_program.h"
 #include "ui/studies/study.h"
 
@@ -190,7 +190,7 @@ std::vector<PaperRun> paper_runs(
         run.colour = colour;
         run.measure = by;
         run.diagonal_m = mesh.diagonal_m;
-        const base::Stopwatch watch;
+        const Stopwatch watch;
         run.result = simplify::paper_simplified(mesh.original, options);
         run.time_ms = watch.ms();
         run.distance = distance_to(mesh.original, run.result.mesh);
@@ -353,7 +353,7 @@ public:
         simplify::SimplifyOptions options;
         options.effort = effort;
         options.goal.faces = faces_;
-        const base::Stopwatch watch;
+        const Stopwatch watch;
         const simplify::Simplified result = simplify::simplified(mesh_.clean, options);
         add(method, result.mesh, watch.ms());
     }
@@ -361,7 +361,7 @@ public:
     void add_paper(const char* method) {
         simplify::PaperOptions options;
         options.goal.faces = faces_;
-        const base::Stopwatch watch;
+        const Stopwatch watch;
         const simplify::PaperResult result = simplify::paper_simplified(mesh_.clean, options);
         add(method, result.mesh, watch.ms());
     }
