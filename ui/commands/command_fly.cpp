@@ -49,7 +49,7 @@ struct FlyOptions {
 };
 
 /// Waits until the wall clock reaches the frame's simulated time.
-void wait_for(const base::Stopwatch& since_start, double time_s) {
+void wait_for(const Stopwatch& since_start, double time_s) {
     const double left_s = time_s - since_start.s();
     if (left_s > 0.0) { std::this_thread::sleep_for(std::chrono::duration<double>(left_s)); }
 }
@@ -101,7 +101,7 @@ std::string fly_frames(
     const int count = session.frames() - first;
     base::Progress progress(session.world().flight.title, count, options.quiet);
     for (const std::string& line : sender.wait_for_channels(session)) { base::print_note(false, line); }
-    const base::Stopwatch since_start;
+    const Stopwatch since_start;
     int frame = first;
     for (; frame < session.frames() && !(base::StopSignals::received() && frame > first); ++frame) {
         const double due_s = (frame - first) / session.rate_hz();

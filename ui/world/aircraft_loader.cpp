@@ -12,10 +12,10 @@
 #include "sim/base/error.h"
 #include "sim/base/hash.h"
 #include "sim/base/output_file.h"
+#include "sim/base/stopwatch.h"
 #include "sim/base/text_file.h"
 #include "sim/base/text_scanner.h"
 #include "ui/base/data_files.h"
-#include "ui/base/stopwatch.h"
 #include "ui/settings/settings.h"
 #include "ui/world/input_files.h"
 #include "ui/world/mesh_loader.h"
@@ -321,7 +321,7 @@ RefineMesh hierarchy_in(const fs::path& file, const fs::path& cache, MeshAircraf
 }
 
 MeshAircraft from_hierarchy(const fs::path& file, const std::string& setting, const fs::path& cache) {
-    const base::Stopwatch watch;
+    const Stopwatch watch;
     MeshAircraft aircraft;
     RefineMesh input = hierarchy_in(file, cache, aircraft);
     const AircraftAxes axes = aircraft_axes(setting, file, finest_mesh(*input.mesh));
