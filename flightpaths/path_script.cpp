@@ -18,16 +18,10 @@ namespace octant::flightpaths {
 
 namespace {
 
-constexpr std::array<std::pair<LegKind, std::string_view>, 8> words{{
-    {LegKind::Straight, "straight"},
-    {LegKind::Hold, "hold"},
-    {LegKind::Climb, "climb"},
-    {LegKind::Dive, "dive"},
-    {LegKind::Turn, "turn"},
-    {LegKind::Jink, "jink"},
-    {LegKind::Pull, "pull"},
-    {LegKind::Push, "push"},
-}};
+/// By LegKind.
+constexpr std::array<std::string_view, 8> kind_words{
+    "straight", "hold", "climb", "dive", "turn", "jink", "pull", "push"};
+constexpr std::array<std::string_view, 2> side_words{"left", "right"};
 
 // Bounds keep numbers sane; what an aircraft can fly is judged later, against its limits.
 constexpr NumberRange distance_m{-1e6, 1e6};
@@ -41,13 +35,6 @@ constexpr NumberRange climb_rad{-steepest_rad, steepest_rad};
 constexpr NumberRange slope_rad{0.0, steepest_rad};
 constexpr double max_script_s = 7200.0;
 constexpr NumberRange duration_s{0.05, max_script_s};
-
-LegKind kind_from(const std::string& word) {
-    for (const auto& [kind, name] : words) {
-        if (name == word) { return kind; }
-    }
-    return LegKind::Straight;
-}
 
 void need_one_end(const TomlFields& fields, bool first, bool second, std::string_view both) {
     if (first == second) {
@@ -65,9 +52,9 @@ void read_slope(TomlFields& fields, Leg& leg) {
 }
 
 void read_turn(TomlFields& fields, Leg& leg) {
-    leg.to_the_left = fields.required_word("side", {"left", "right"}) == "left";
+    leg.to_the_left = fields.required_word("side", side_words) == 0;
     leg.bank_rad = fields.number("bank", "rad", {rad_from_deg(1.0), rad_from_deg(85.0)});
-    leg.load_factor = fields.number("load_factor", "g", {1.001, load_factor_g.most});
+    leg.load_factor = fields.number("load_factor", "g", {1.001, load_factor_g.max});
     need_one_end(fields, leg.bank_rad.has_value(), leg.load_factor.has_value(), "bank_deg or load_factor_g");
     leg.climb_rad = fields.number("climb", "rad", climb_rad).value_or(0.0);
     leg.duration_s = fields.number("duration", "s", duration_s);
@@ -91,7 +78,7 @@ void read_jink(TomlFields& fields, Leg& leg) {
 
 void read_pull(TomlFields& fields, Leg& leg) {
     const bool pull = leg.kind == LegKind::Pull;
-    const NumberRange bounds = pull ? NumberRange{1.01, load_factor_g.most} : NumberRange{load_factor_g.least, 0.99};
+    const NumberRange bounds = pull ? NumberRange{1.01, load_factor_g.max} : NumberRange{load_factor_g.min, 0.99};
     leg.load_factor = fields.required_number("load_factor", "g", bounds);
     leg.climb_rad = fields.required_number("to_climb", "rad", climb_rad);
     leg.bank_rad = fields.number("bank", "rad", {-pi, pi}).value_or(0.0);
@@ -101,8 +88,7 @@ Leg read_leg(const std::filesystem::path& file, const toml::table& table) {
     TomlFields fields(file, table);
     Leg leg;
     leg.line = fields.line();
-    leg.kind =
-        kind_from(fields.required_word("fly", {"straight", "hold", "climb", "dive", "turn", "jink", "pull", "push"}));
+    leg.kind = static_cast<LegKind>(fields.required_word("fly", kind_words));
     leg.label = fields.text("label").value_or("");
     leg.acceleration_mps2 = fields.number("acceleration", "mps2", {-50.0, 50.0}).value_or(0.0);
     leg.to_speed_mps = fields.number("to_speed", "mps", speed_mps);
@@ -155,12 +141,7 @@ toml::table parsed(const std::filesystem::path& file) {
 
 } // namespace
 
-std::string_view word_of(LegKind kind) {
-    for (const auto& [known, word] : words) {
-        if (known == kind) { return word; }
-    }
-    return "";
-}
+std::string_view word_of(LegKind kind) { return kind_words[static_cast<std::size_t>(kind)]; }
 
 PathScript read_path_script(const std::filesystem::path& file) {
     const toml::table root = parsed(file);

@@ -40,7 +40,7 @@ struct Lift {
 
 /// Largest value within `half` places to either side; the ends are repeated.
 std::vector<double> running_max(const std::vector<double>& values, std::size_t half) {
-    std::vector<double> most(values.size());
+    std::vector<double> maxima(values.size());
     std::deque<std::size_t> falling;
     std::size_t next = 0;
     for (std::size_t i = 0; i < values.size(); ++i) {
@@ -49,9 +49,9 @@ std::vector<double> running_max(const std::vector<double>& values, std::size_t h
             falling.push_back(next);
         }
         while (falling.front() + half < i) { falling.pop_front(); }
-        most[i] = values[falling.front()];
+        maxima[i] = values[falling.front()];
     }
-    return most;
+    return maxima;
 }
 
 std::vector<double> running_min(std::vector<double> values, std::size_t half) {
@@ -163,10 +163,10 @@ bool within(const sim::Trajectory& path, const Lift& lift, const sim::AircraftLi
     const double half_min = 0.5 * (1.0 + limits.min_load_factor);
     for (const sim::AircraftState& state : path.samples()) {
         const double own = state.load_factor;
-        const double most = std::min(std::max(half_max, own + small_change_g), std::max(limits.max_load_factor, own));
-        const double least = std::max(std::min(half_min, own - small_change_g), std::min(limits.min_load_factor, own));
+        const double max = std::min(std::max(half_max, own + small_change_g), std::max(limits.max_load_factor, own));
+        const double min = std::max(std::min(half_min, own - small_change_g), std::min(limits.min_load_factor, own));
         const double got = lifted(state, lift, step_of(path, state.time_s)).load_factor;
-        if (got > most + 1e-9 || got < least - 1e-9) { return false; }
+        if (got > max + 1e-9 || got < min - 1e-9) { return false; }
     }
     const double onset_mps3 = limits.load_factor_rate_gps * gravity_mps2;
     for (std::size_t i = 1; i < lift.acceleration_mps2.size(); ++i) {
@@ -190,6 +190,24 @@ std::vector<double> slope_limited(
     return needed_m;
 }
 
+namespace {
+
+struct RaisedPath {
+    sim::Trajectory trajectory;
+    /// False if only one lift for all heights is within the limits.
+    bool follows = true;
+};
+
+/// Lifts a path over ground, changing in time.
+///
+/// `needed_m` is what must at least be added to the path's height at each step of sim::step_s from its start; the
+/// result adds at least that at every step. The aircraft climbs no faster than it can in addition to the path's own
+/// climb, sinks no faster than it can climb, and both no steeper than 1 in 4. The lift is rounded over the shortest
+/// time that keeps the load factor within half of the aircraft's margins (or near the path's own, if that is beyond
+/// them) and its onset within the limit. If no time does, or only one that levels the whole path, the path is lifted by
+/// one height and `follows` is false.
+///
+/// Speed along the ground stays; velocity, pitch and load factor follow the new path; bank stays.
 RaisedPath raised_over_ground(
     const sim::Trajectory& path, const std::vector<double>& needed_m, const sim::AircraftLimits& limits) {
     assert(!needed_m.empty());
@@ -211,8 +229,6 @@ RaisedPath raised_over_ground(
     }
     return {sim::Trajectory(std::move(samples)), !refused || !is_level(lift)};
 }
-
-namespace {
 
 constexpr int headings = 24;
 /// Reliefs closer than this count as equal, so that rounding does not choose.

@@ -1,9 +1,10 @@
 #include "flightpaths/recorded_track.h"
 
 #include "flightpaths/derived_motion.h"
-#include "flightpaths/track_table.h"
+#include "flightpaths/log_columns.h"
 #include "sim/aircraft_state.h"
 #include "sim/base/axes.h"
+#include "sim/base/column_reader.h"
 #include "sim/base/earth_frame.h"
 #include "sim/base/error.h"
 #include "sim/base/text_file.h"
@@ -18,7 +19,9 @@
 #include <cstddef>
 #include <filesystem>
 #include <fmt/format.h>
+#include <initializer_list>
 #include <optional>
+#include <ranges>
 #include <span>
 #include <string>
 #include <string_view>
@@ -34,25 +37,6 @@ constexpr double max_track_speed_mps = 3000.0;
 constexpr double max_track_distance_m = 1e7;
 constexpr double max_track_duration_s = 86400.0;
 
-/// The text of a log, cut into lines.
-struct LogText {
-    const std::filesystem::path& file;
-    std::span<const std::string_view> lines;
-    /// The last line before the samples, from 0: that of the columns' names or their units.
-    std::size_t header_line = 0;
-    char separator = ',';
-    /// Which line of the file each of these is, from 1; empty: they are all of its lines.
-    std::span<const int> numbers = {};
-};
-
-struct LoggedTrack {
-    /// At least 2, in the axes of a TransverseMercator frame at `origin`, heights above datum.
-    std::vector<sim::AircraftState> samples;
-    GeoPosition origin;
-    /// What a person should be told of it.
-    std::vector<std::string> notes;
-};
-
 /// Angles in degrees; a heading only where the log has one.
 struct LoggedAngles {
     double roll = 0.0;
@@ -66,22 +50,26 @@ struct LeftOut {
     int jumps = 0;
 };
 
-/// How much was left out, behind `before`; empty when nothing was.
-std::string said_of(const LeftOut& left_out, std::string_view before = "") {
+/// Message about what was left out, after `before`; empty if nothing was.
+std::string message_of(const LeftOut& left_out, std::string_view before = "") {
     if (left_out.without_place + left_out.not_later + left_out.jumps == 0) { return {}; }
     return fmt::format("{}left out of the log: {} without time, place or height, {} of a moment that had been, "
                        "{} that only a jump leads to",
         before, left_out.without_place, left_out.not_later, left_out.jumps);
 }
 
-/// Reads the lines one by one and keeps those that fit.
+/// Reads the rows of a log of another program. Rows without time, position or altitude, rows whose time does not
+/// increase, and rows that imply a speed above 3000 m/s are left out and counted in the notes. Times begin at 0.
+/// Attitudes are the log's if every row has roll and pitch, with its true heading or else the heading of the motion;
+/// otherwise they are derived from the motion. Throws Error with file and line for a field that is neither empty nor a
+/// number where there must be one, for a place off the earth, for more than a day, and for fewer than 2 samples.
 class LogReader {
 public:
-    LogReader(const LogText& log, const LogColumns& columns) : log_(log), columns_(columns) {}
+    LogReader(const std::filesystem::path& file, const LogColumns& columns) : file_(file), columns_(columns) {}
 
-    void read_line(std::size_t index) {
-        line_ = log_.numbers.empty() ? static_cast<int>(index) + 1 : log_.numbers[index];
-        fields_ = unquoted_fields(log_.lines[index], log_.separator);
+    void read_row(int line, std::span<const std::string_view> fields) {
+        line_ = line;
+        fields_ = fields;
         const auto time_s = time();
         const auto place = this->place();
         const auto altitude_m = value(LogQuantity::Altitude);
@@ -95,7 +83,7 @@ public:
         state.time_s = *time_s;
         state.position_m = {local.east_north_m, *altitude_m};
         if (!(glm::length(state.position_m) <= max_track_distance_m)) {
-            throw_error_at(log_.file, line_,
+            throw_error_at(file_, line_,
                 fmt::format("expected a place within {:.0f} km of the first", max_track_distance_m / 1000.0));
         }
         if (!is_next(state)) { return; }
@@ -104,16 +92,18 @@ public:
         samples_.push_back(state);
     }
 
-    LoggedTrack track() && {
+    /// Ends the track; its notes begin with `notes`.
+    RecordedTrack track(std::vector<std::string> notes = {}) && {
         if (samples_.size() < 2) {
-            throw_error_in(log_.file, fmt::format("expected at least 2 samples with a place, got {}{}", samples_.size(),
-                                          said_of(left_out_, "; ")));
+            throw_error_in(file_, fmt::format("expected at least 2 samples with a place, got {}{}", samples_.size(),
+                                      message_of(left_out_, "; ")));
         }
         if (!has_velocities_) { fill_velocities(samples_); }
         fill_attitudes(samples_);
         if (angles_.size() == samples_.size()) { take_logged_angles(); }
         fill_load_factors(samples_);
-        return {std::move(samples_), frame_->origin(), notes()};
+        add_notes(notes);
+        return {sim::Trajectory(std::move(samples_)), frame_->origin(), std::move(notes)};
     }
 
 private:
@@ -130,9 +120,9 @@ private:
         if (text.empty()) { return std::nullopt; }
         const auto value = finite_number(text);
         if (!value) {
-            throw_error_at(log_.file, line_,
-                fmt::format("expected a finite number in column {}, got \"{}\"", printable(columns_[what]->name),
-                    printable(std::string(text))));
+            throw_error_at(file_, line_,
+                fmt::format(
+                    "expected a finite number in column {}, got {}", printable(columns_[what]->name), in_quotes(text)));
         }
         return value;
     }
@@ -156,7 +146,7 @@ private:
         // Receivers without a fix write zeros.
         if (!latitude_deg || !longitude_deg || (*latitude_deg == 0.0 && *longitude_deg == 0.0)) { return std::nullopt; }
         if (std::abs(*latitude_deg) > 90.0 || std::abs(*longitude_deg) > 360.0) {
-            throw_error_at(log_.file, line_,
+            throw_error_at(file_, line_,
                 fmt::format("expected a latitude within 90 deg and a longitude within 360 deg, got {} and "
                             "{}",
                     *latitude_deg, *longitude_deg));
@@ -170,10 +160,10 @@ private:
         if (text.empty()) { return std::nullopt; }
         const auto read = log_time(text);
         if (!read) {
-            throw_error_at(log_.file, line_,
+            throw_error_at(file_, line_,
                 fmt::format("expected a time such as 12.5, 07:41:03 or 2024-01-02T07:41:03Z in column {}, "
-                            "got \"{}\"",
-                    printable(columns_[LogQuantity::Time]->name), printable(std::string(text))));
+                            "got {}",
+                    printable(columns_[LogQuantity::Time]->name), in_quotes(text)));
         }
         if (!first_time_s_) {
             first_time_s_ = read->seconds;
@@ -195,7 +185,7 @@ private:
         if (samples_.empty()) { return true; }
         const sim::AircraftState& last = samples_.back();
         if (!(state.time_s - samples_.front().time_s <= max_track_duration_s)) {
-            throw_error_at(log_.file, line_,
+            throw_error_at(file_, line_,
                 fmt::format(
                     "expected a time within {:.0f} s of the first, got {:.3f} s", max_track_duration_s, state.time_s));
         }
@@ -242,24 +232,22 @@ private:
         }
     }
 
-    std::vector<std::string> notes() const {
+    void add_notes(std::vector<std::string>& notes) const {
         const LogColumn& altitude = *columns_[LogQuantity::Altitude];
-        std::vector<std::string> notes;
         if (!altitude.has_unit) {
             notes.push_back(
                 fmt::format("column {} names no unit: its heights are taken as metres (name it {}_ft for feet)",
                     printable(altitude.name), printable(altitude.name)));
         }
-        if (std::string left_out = said_of(left_out_); !left_out.empty()) { notes.push_back(std::move(left_out)); }
-        return notes;
+        if (std::string left_out = message_of(left_out_); !left_out.empty()) { notes.push_back(std::move(left_out)); }
     }
 
     static constexpr double day_s = 86400.0;
 
-    const LogText& log_;
+    const std::filesystem::path& file_;
     const LogColumns& columns_;
     int line_ = 0;
-    std::vector<std::string_view> fields_;
+    std::span<const std::string_view> fields_;
     std::optional<TransverseMercator> frame_;
     std::optional<double> first_time_s_;
     double time_factor_ = 1.0;
@@ -269,35 +257,26 @@ private:
     LeftOut left_out_;
 };
 
-/// Reads a log of another program (see log_columns()). Lines without time, position or altitude, lines whose time does
-/// not increase, and lines that imply a speed above 3000 m/s are left out and counted in the notes. Times begin at 0.
-/// Attitudes are the log's if every line has roll and pitch, with its true heading or else the heading of the motion;
-/// otherwise they are derived from the motion. Throws Error with file and line for what is neither empty nor a number
-/// where there must be one, a place that is on no earth, more than a day, and fewer than 2 samples.
-LoggedTrack logged_track(const LogText& log, const LogColumns& columns) {
-    LogReader reader(log, columns);
-    for (std::size_t i = log.header_line + 1; i < log.lines.size(); ++i) {
-        const bool is_empty = split_words(log.lines[i]).empty();
-        if (!is_empty && !log.lines[i].starts_with('#')) { reader.read_line(i); }
-    }
-    return std::move(reader).track();
-}
-
-/// A log of another kind of file as rows of text, which logged_track() reads.
-struct LogTable {
-    /// Names of the columns first, then a row a fix: "07:41:03,47.1,8.2,512". What a fix does not tell is empty.
-    std::vector<std::string> rows;
-    /// The line of the file that each row comes from, counted from 1.
-    std::vector<int> line_numbers;
-    /// What a person should be told of it.
-    std::vector<std::string> notes;
+/// A fix of an IGC or GPX file: time, latitude and longitude in degrees, altitude in metres, as text; empty where
+/// unknown.
+struct FixRow {
+    int line = 0; ///< of the file, from 1
+    std::array<std::string, 4> fields;
 };
 
-/// The columns of a LogTable.
-constexpr std::string_view log_table_columns = "time,latitude,longitude,altitude_m";
+RecordedTrack track_of_fixes(
+    const std::filesystem::path& file, std::span<const FixRow> fixes, std::vector<std::string> notes = {}) {
+    const auto columns = log_columns({"time", "latitude", "longitude", "altitude_m"}, {});
+    LogReader reader(file, *columns);
+    for (const FixRow& fix : fixes) {
+        const std::array<std::string_view, 4> fields{fix.fields[0], fix.fields[1], fix.fields[2], fix.fields[3]};
+        reader.read_row(fix.line, fields);
+    }
+    return std::move(reader).track(std::move(notes));
+}
 
-/// A whole number that fills its columns; pressure altitudes below the datum begin with a minus.
-std::optional<int> number_radius(std::string_view record, std::size_t at, std::size_t count) {
+/// The integer in `count` characters from `at` on; pressure altitudes below the datum begin with a minus.
+std::optional<int> integer_at(std::string_view record, std::size_t at, std::size_t count) {
     const std::string_view text = record.substr(at, count);
     const std::size_t sign = text.starts_with('-') ? 1 : 0;
     if (!std::all_of(text.begin() + static_cast<std::ptrdiff_t>(sign), text.end(), is_digit)) { return std::nullopt; }
@@ -308,8 +287,8 @@ std::optional<int> number_radius(std::string_view record, std::size_t at, std::s
 
 /// Degrees of an angle that is written as whole degrees and thousandths of minutes.
 std::optional<double> angle_deg(std::string_view record, std::size_t at, std::size_t degrees, std::string_view signs) {
-    const auto whole = number_radius(record, at, degrees);
-    const auto thousandths = number_radius(record, at + degrees, 5);
+    const auto whole = integer_at(record, at, degrees);
+    const auto thousandths = integer_at(record, at + degrees, 5);
     const char side = record[at + degrees + 5];
     if (!whole || !thousandths || *whole < 0 || *thousandths < 0 || *thousandths >= 60'000 ||
         signs.find(side) == signs.npos) {
@@ -337,20 +316,21 @@ Fix fix_of(std::string_view record, int line) {
     if (!record.starts_with('B') || record.size() < fix_length) { return fix; }
     const auto latitude_deg = angle_deg(record, 7, 2, "NS");
     const auto longitude_deg = angle_deg(record, 15, 3, "EW");
-    if (!latitude_deg || !longitude_deg || !number_radius(record, 1, 6)) { return fix; }
+    if (!latitude_deg || !longitude_deg || !integer_at(record, 1, 6)) { return fix; }
     fix.clock = record.substr(1, 6);
     fix.latitude_deg = *latitude_deg;
     fix.longitude_deg = *longitude_deg;
-    fix.pressure_m = number_radius(record, 25, 5);
-    const auto receiver_m = number_radius(record, 30, 5);
+    fix.pressure_m = integer_at(record, 25, 5);
+    const auto receiver_m = integer_at(record, 30, 5);
     if (record[24] == 'A' && receiver_m && *receiver_m != 0) { fix.receiver_m = receiver_m; }
     return fix;
 }
 
-std::string row_of(const Fix& fix, const std::optional<int>& height_m) {
-    if (fix.clock.empty()) { return ",,,"; }
-    return fmt::format("{}:{}:{},{:.8f},{:.8f},{}", fix.clock.substr(0, 2), fix.clock.substr(2, 2),
-        fix.clock.substr(4, 2), fix.latitude_deg, fix.longitude_deg, height_m ? fmt::format("{}", *height_m) : "");
+FixRow row_of(const Fix& fix, const std::optional<int>& height_m) {
+    if (fix.clock.empty()) { return {fix.line, {}}; }
+    return {fix.line, {fmt::format("{}:{}:{}", fix.clock.substr(0, 2), fix.clock.substr(2, 2), fix.clock.substr(4, 2)),
+                          fmt::format("{:.8f}", fix.latitude_deg), fmt::format("{:.8f}", fix.longitude_deg),
+                          height_m ? std::to_string(*height_m) : ""}};
 }
 
 /// True for the lines of a glider's flight recorder: the first that holds anything is the record of its maker (A) or of
@@ -362,28 +342,21 @@ bool is_igc(std::span<const std::string_view> lines) {
     return has_head && std::ranges::any_of(lines, [](std::string_view line) { return !fix_of(line, 0).clock.empty(); });
 }
 
-/// The fixes (B records) of a flight recorder's file, as the FAI's "Technical Specification for GNSS Flight Recorders",
-/// appendix A, lays them out. Heights are those of the receiver where most fixes have one, else pressure altitudes; a
-/// fix without it has none. B records that are damaged are rows without a place.
-LogTable igc_fixes(std::span<const std::string_view> lines) {
+/// The track of a flight recorder's file: its fixes (B records), as the FAI's "Technical Specification for GNSS Flight
+/// Recorders", appendix A, lays them out. Heights are those of the receiver if most fixes have one, else pressure
+/// altitudes; a fix without that height has none. Damaged B records count as fixes without a place.
+RecordedTrack igc_track(const std::filesystem::path& file, std::span<const std::string_view> lines) {
     std::vector<Fix> fixes;
     for (std::size_t i = 0; i < lines.size(); ++i) {
         if (lines[i].starts_with('B')) { fixes.push_back(fix_of(lines[i], static_cast<int>(i) + 1)); }
     }
     const auto with_receiver = std::ranges::count_if(fixes, [](const Fix& fix) { return fix.receiver_m.has_value(); });
     const bool by_receiver = 2 * static_cast<std::size_t>(with_receiver) > fixes.size();
-    LogTable table;
-    table.rows.emplace_back(log_table_columns);
-    table.line_numbers.push_back(1);
-    for (const Fix& fix : fixes) {
-        table.rows.push_back(row_of(fix, by_receiver ? fix.receiver_m : fix.pressure_m));
-        table.line_numbers.push_back(fix.line);
-    }
-    if (!by_receiver) {
-        table.notes.emplace_back("heights are pressure altitudes: few fixes have one of the "
-                                 "receiver");
-    }
-    return table;
+    std::vector<FixRow> rows;
+    for (const Fix& fix : fixes) { rows.push_back(row_of(fix, by_receiver ? fix.receiver_m : fix.pressure_m)); }
+    std::vector<std::string> notes;
+    if (!by_receiver) { notes.emplace_back("heights are pressure altitudes: few fixes have one of the receiver"); }
+    return track_of_fixes(file, rows, std::move(notes));
 }
 
 constexpr std::string_view point_start = "<trkpt";
@@ -391,8 +364,8 @@ constexpr std::string_view point_end = "</trkpt>";
 constexpr std::string_view comment_start = "<!--";
 constexpr std::string_view comment_end = "-->";
 
-/// Fields of a row hold no comma and no quote.
-std::string_view as_field(std::string_view text) {
+/// The text without blanks around it; empty if it has blanks, commas or quotes within.
+std::string_view plain_word(std::string_view text) {
     const auto words = split_words(text);
     const bool is_plain = words.size() == 1 && words.front().find_first_of(",\"") == text.npos;
     return is_plain ? words.front() : std::string_view();
@@ -406,7 +379,7 @@ std::string_view attribute(std::string_view tag, std::string_view name) {
         const bool is_value = quote != tag.npos && (tag[quote] == '"' || tag[quote] == '\'');
         if (is_whole && is_value) {
             const std::size_t end = tag.find(tag[quote], quote + 1);
-            return end == tag.npos ? std::string_view() : as_field(tag.substr(quote + 1, end - quote - 1));
+            return end == tag.npos ? std::string_view() : plain_word(tag.substr(quote + 1, end - quote - 1));
         }
     }
     return {};
@@ -418,7 +391,7 @@ std::string_view element(std::string_view within, std::string_view name) {
     const std::size_t at = within.find(opening);
     if (at == within.npos) { return {}; }
     const std::string_view behind = within.substr(at + opening.size());
-    return as_field(behind.substr(0, behind.find('<')));
+    return plain_word(behind.substr(0, behind.find('<')));
 }
 
 /// True for a text whose root element is GPX's.
@@ -430,12 +403,10 @@ bool is_gpx(std::string_view text) {
 }
 
 /// The track points of a GPX file (topografix.com/GPX/1/1), of all its tracks and segments in their order; waypoints
-/// and routes have no times and are passed over. Throws Error with file and line for a comment or a track point without
+/// and routes have no times and are ignored. Throws Error with file and line for a comment or a track point without
 /// an end, and with the file where there is no track point.
-LogTable gpx_points(const std::filesystem::path& file, std::string_view text) {
-    LogTable table;
-    table.rows.emplace_back(log_table_columns);
-    table.line_numbers.push_back(1);
+RecordedTrack gpx_track(const std::filesystem::path& file, std::string_view text) {
+    std::vector<FixRow> points;
     int line = 1;
     std::size_t counted = 0;
     const auto line_at = [&](std::size_t at) {
@@ -460,16 +431,16 @@ LogTable gpx_points(const std::filesystem::path& file, std::string_view text) {
             const bool is_bare = tag.ends_with('/');
             const std::size_t end = is_bare ? tag_end : end_of(at, point_end);
             const std::string_view within = text.substr(tag_end, end - tag_end);
-            table.rows.push_back(fmt::format("{},{},{},{}", element(within, "time"), attribute(tag, "lat"),
-                attribute(tag, "lon"), element(within, "ele")));
-            table.line_numbers.push_back(line_at(at));
+            points.push_back(
+                {line_at(at), {std::string(element(within, "time")), std::string(attribute(tag, "lat")),
+                                  std::string(attribute(tag, "lon")), std::string(element(within, "ele"))}});
             at = end;
         }
     }
-    if (table.rows.size() == 1) {
+    if (points.empty()) {
         throw_error_in(file, "expected track points (trkpt), got none: waypoints and routes have no times");
     }
-    return table;
+    return track_of_fixes(file, points);
 }
 
 /// The geodetic latitude of a place from its geocentric one, which is up to 0.19 degrees or 21 km less, and its height
@@ -487,188 +458,239 @@ double geodetic_from_geocentric_deg(double geocentric_deg, double height_m) {
     return deg_from_rad(geodetic_rad);
 }
 
+/// The quantities of a track of Octant or JSBSim. The unit of a value is the unit in the column's name.
+enum TrackQuantity : std::size_t {
+    Time,
+    North,
+    East,
+    Altitude,
+    Roll,
+    Pitch,
+    Yaw,
+    NorthSpeed,
+    EastSpeed,
+    UpSpeed,
+    LoadFactor,
+    QuaternionW,
+    QuaternionX,
+    QuaternionY,
+    QuaternionZ,
+    QuantityCount
+};
+
+/// A column for each TrackQuantity; without a name if such tracks have none.
+using TrackColumns = std::array<TableColumn, QuantityCount>;
+
+constexpr TrackColumns octant_columns{
+    {{"t_s", true}, {"north_m", true}, {"east_m", true}, {"alt_m", true}, {"roll_deg"}, {"pitch_deg"}, {"yaw_deg"},
+        {"v_north_mps"}, {"v_east_mps"}, {"v_up_mps"}, {"n_g"}, {"q_w"}, {"q_x"}, {"q_y"}, {"q_z"}}};
+
+constexpr std::string_view geocentric_latitude = "Latitude (deg)";
+
+constexpr TrackColumns jsbsim_columns{
+    {{"Time", true}, {"Latitude Geodetic (deg)", true}, {"Longitude (deg)", true}, {"Altitude ASL (ft)", true},
+        {"Phi (deg)"}, {"Theta (deg)"}, {"Psi (deg)"}, {"V_{North} (ft/s)"}, {"V_{East} (ft/s)"}, {"V_{Down} (ft/s)"}}};
+
+/// JSBSim's columns; the geocentric latitude takes the place of a missing geodetic one.
+TrackColumns jsbsim_columns_in(std::span<const std::string_view> names) {
+    TrackColumns columns = jsbsim_columns;
+    if (!field_named(names, columns[North].name) && field_named(names, geocentric_latitude)) {
+        columns[North].name = geocentric_latitude;
+    }
+    return columns;
+}
+
+/// True if the names contain the time, north (or latitude), east (or longitude) and altitude columns.
+bool has_place(const TrackColumns& columns, std::span<const std::string_view> names) {
+    return std::ranges::all_of(columns,
+        [&](const TableColumn& column) { return !column.is_required || field_named(names, column.name).has_value(); });
+}
+
+/// True if the names contain the time and at least one other of the columns.
+bool has_some(const TrackColumns& columns, std::span<const std::string_view> names) {
+    return field_named(names, columns[Time].name) &&
+           std::ranges::any_of(columns | std::views::drop(1), [&](const TableColumn& column) {
+               return !column.name.empty() && field_named(names, column.name).has_value();
+           });
+}
+
 constexpr double latest_s = 1e7;
-/// A quaternion whose length is as far from 1 is no attitude.
-constexpr double off_unit = 1e-6;
-/// Closer to 1 its length is rounding: it is taken as it stands, so that a state keeps its bits.
-constexpr double rounding = 1e-12;
+/// A quaternion whose length differs more from 1 is no attitude.
+constexpr double max_quaternion_error = 1e-6;
+/// A smaller difference is rounding: the quaternion is not normalised, so that a state keeps its bits.
+constexpr double quaternion_rounding = 1e-12;
 
-using Row = std::array<double, QuantityCount>;
+using TrackRow = std::array<double, QuantityCount>;
 
-Row row_from(std::string_view line, const TrackHeader& header, const TrackLineLocation& at) {
-    const auto fields = unquoted_fields(line, header.separator);
-    if (fields.size() < header.fields || !are_empty(std::span(fields).subspan(header.fields))) {
-        at.refuse(fmt::format("expected {} fields, got {}", header.fields, fields.size()));
-    }
-    Row row{};
-    for (std::size_t i = 0; i < row.size(); ++i) {
-        const TrackColumn& column = header.columns[i];
-        if (column.field < 0) { continue; }
-        const std::string_view text = fields[static_cast<std::size_t>(column.field)];
-        const auto value = finite_number(text);
-        if (!value) {
-            at.refuse(fmt::format(
-                "expected a finite number in column {}, got \"{}\"", column.name, printable(std::string(text))));
+/// Reads the rows of a track of Octant or JSBSim one by one.
+class TrackReader {
+public:
+    /// The current row of `table` holds the names of the columns. Throws Error if a required column is missing, one
+    /// occurs twice, or some but not all of the quaternion's are there.
+    TrackReader(ColumnReader& table, bool is_jsbsim)
+        : table_(table), is_jsbsim_(is_jsbsim),
+          columns_(is_jsbsim ? jsbsim_columns_in(table.fields()) : octant_columns) {
+        table.find(columns_);
+        for (std::size_t i = QuaternionW; i <= QuaternionZ; ++i) { has_quaternion_ = has_quaternion_ || table.has(i); }
+        for (std::size_t i = QuaternionW; i <= QuaternionZ; ++i) {
+            if (has_quaternion_ && !table.has(i)) {
+                table.refuse("all of the columns q_w, q_x, q_y, q_z", fmt::format("no {}", columns_[i].name));
+            }
         }
-        row[i] = *value;
     }
-    return row;
-}
 
-/// A JSBSim row in the units and axes of our own columns.
-Row own_from_jsbsim(
-    Row row, const TrackHeader& header, std::optional<TransverseMercator>& frame, const TrackLineLocation& at) {
-    if (std::abs(row[North]) > 90.0 || std::abs(row[East]) > 360.0) {
-        at.refuse(fmt::format(
-            "expected a latitude within 90 deg and a longitude within 360 deg, got {} and {}", row[North], row[East]));
+    RecordedTrack track(const std::filesystem::path& file) && {
+        while (table_.next_row()) {
+            const sim::AircraftState state = state_of(row());
+            if (!samples_.empty()) { check_follows(state); }
+            samples_.push_back(state);
+        }
+        if (samples_.size() < 2) {
+            throw_error_in(file, fmt::format("expected at least 2 samples, got {}", samples_.size()));
+        }
+        if (!has({NorthSpeed, EastSpeed, UpSpeed})) { fill_velocities(samples_); }
+        if (!has_quaternion_ && !has({Roll, Pitch, Yaw})) { fill_attitudes(samples_); }
+        if (!has({LoadFactor})) { fill_load_factors(samples_); }
+        return {sim::Trajectory(std::move(samples_)), frame_ ? std::optional(frame_->origin()) : std::nullopt, {}};
     }
-    if (header.columns[North].name == geocentric_latitude) {
-        row[North] = geodetic_from_geocentric_deg(row[North], m_from_ft(row[Altitude]));
-    }
-    const GeoPosition place{row[North], row[East]};
-    if (!frame) { frame.emplace(place); }
-    const FramePosition local = frame->place_of(place);
-    const glm::dvec2 speed_mps =
-        rotated_clockwise({m_from_ft(row[EastSpeed]), m_from_ft(row[NorthSpeed])}, local.north_bearing_rad);
-    row[North] = local.east_north_m.y;
-    row[East] = local.east_north_m.x;
-    row[Altitude] = m_from_ft(row[Altitude]);
-    row[Yaw] += deg_from_rad(local.north_bearing_rad);
-    row[NorthSpeed] = speed_mps.y;
-    row[EastSpeed] = speed_mps.x;
-    row[UpSpeed] = -m_from_ft(row[UpSpeed]);
-    return row;
-}
 
-glm::dquat attitude_from(const Row& row, bool as_quaternion, const TrackLineLocation& at) {
-    if (!as_quaternion) {
-        return body_to_world_from_euler({rad_from_deg(row[Yaw]), rad_from_deg(row[Pitch]), rad_from_deg(row[Roll])});
+private:
+    bool has(std::initializer_list<TrackQuantity> quantities) const {
+        return std::ranges::all_of(quantities, [&](TrackQuantity quantity) { return table_.has(quantity); });
     }
-    const glm::dquat attitude(row[QuaternionW], row[QuaternionX], row[QuaternionY], row[QuaternionZ]);
-    const double off = std::abs(glm::length(attitude) - 1.0);
-    if (!(off <= off_unit)) {
-        at.refuse(fmt::format(
-            "expected a unit quaternion q_w, q_x, q_y, q_z, got one of length {:.7g}", glm::length(attitude)));
-    }
-    return off <= rounding ? attitude : glm::normalize(attitude);
-}
 
-sim::AircraftState state_from(const Row& row, bool as_quaternion, const TrackLineLocation& at) {
-    sim::AircraftState state;
-    state.time_s = row[Time];
-    if (std::abs(state.time_s) > latest_s) {
-        at.refuse(
-            fmt::format("expected a time from -{:.0f} s to {:.0f} s, got {:.10g} s", latest_s, latest_s, state.time_s));
+    /// The current row in the units and axes of Octant's columns; 0 where the table has no column.
+    TrackRow row() {
+        table_.check_field_count();
+        TrackRow row{};
+        for (std::size_t i = 0; i < row.size(); ++i) {
+            if (table_.has(i)) { row[i] = table_.number(i); }
+        }
+        if (is_jsbsim_) { convert_from_jsbsim(row); }
+        return row;
     }
-    state.position_m = {row[East], row[North], row[Altitude]};
-    if (!(glm::length(state.position_m) <= max_track_distance_m)) {
-        at.refuse(fmt::format("expected a place within {:.0f} km of the origin, got {:.0f} km",
-            max_track_distance_m / 1000.0, glm::length(state.position_m) / 1000.0));
+
+    void convert_from_jsbsim(TrackRow& row) {
+        if (std::abs(row[North]) > 90.0 || std::abs(row[East]) > 360.0) {
+            table_.refuse("a latitude within 90 deg and a longitude within 360 deg",
+                fmt::format("{} and {}", row[North], row[East]));
+        }
+        if (columns_[North].name == geocentric_latitude) {
+            row[North] = geodetic_from_geocentric_deg(row[North], m_from_ft(row[Altitude]));
+        }
+        const GeoPosition place{row[North], row[East]};
+        if (!frame_) { frame_.emplace(place); }
+        const FramePosition local = frame_->place_of(place);
+        const glm::dvec2 speed_mps =
+            rotated_clockwise({m_from_ft(row[EastSpeed]), m_from_ft(row[NorthSpeed])}, local.north_bearing_rad);
+        row[North] = local.east_north_m.y;
+        row[East] = local.east_north_m.x;
+        row[Altitude] = m_from_ft(row[Altitude]);
+        row[Yaw] += deg_from_rad(local.north_bearing_rad);
+        row[NorthSpeed] = speed_mps.y;
+        row[EastSpeed] = speed_mps.x;
+        row[UpSpeed] = -m_from_ft(row[UpSpeed]);
     }
-    state.velocity_mps = {row[EastSpeed], row[NorthSpeed], row[UpSpeed]};
-    state.body_to_world = attitude_from(row, as_quaternion, at);
-    state.load_factor = row[LoadFactor];
-    return state;
-}
 
-void check_times(double first_s, double before_s, double now_s, const TrackLineLocation& at) {
-    if (!(now_s > before_s)) {
-        at.refuse(fmt::format("expected a time after {:.3f} s, got {:.3f} s", before_s, now_s));
+    sim::AircraftState state_of(const TrackRow& row) const {
+        sim::AircraftState state;
+        state.time_s = row[Time];
+        if (std::abs(state.time_s) > latest_s) {
+            table_.refuse(
+                fmt::format("a time from -{0:.0f} s to {0:.0f} s", latest_s), fmt::format("{:.10g} s", state.time_s));
+        }
+        state.position_m = {row[East], row[North], row[Altitude]};
+        if (!(glm::length(state.position_m) <= max_track_distance_m)) {
+            table_.refuse(fmt::format("a place within {:.0f} km of the origin", max_track_distance_m / 1000.0),
+                fmt::format("{:.0f} km", glm::length(state.position_m) / 1000.0));
+        }
+        state.velocity_mps = {row[EastSpeed], row[NorthSpeed], row[UpSpeed]};
+        state.body_to_world = attitude_of(row);
+        state.load_factor = row[LoadFactor];
+        return state;
     }
-    if (!(now_s - first_s <= max_track_duration_s)) {
-        at.refuse(
-            fmt::format("expected a time within {:.0f} s of the first, got {:.3f} s", max_track_duration_s, now_s));
+
+    glm::dquat attitude_of(const TrackRow& row) const {
+        if (!has_quaternion_) {
+            return body_to_world_from_euler(
+                {rad_from_deg(row[Yaw]), rad_from_deg(row[Pitch]), rad_from_deg(row[Roll])});
+        }
+        const glm::dquat attitude(row[QuaternionW], row[QuaternionX], row[QuaternionY], row[QuaternionZ]);
+        const double error = std::abs(glm::length(attitude) - 1.0);
+        if (!(error <= max_quaternion_error)) {
+            table_.refuse(
+                "a unit quaternion q_w, q_x, q_y, q_z", fmt::format("one of length {:.7g}", glm::length(attitude)));
+        }
+        return error <= quaternion_rounding ? attitude : glm::normalize(attitude);
     }
-}
 
-void check_speed(const sim::AircraftState& before, const sim::AircraftState& now, const TrackLineLocation& at) {
-    const double speed_mps = std::max(
-        glm::length(now.velocity_mps), glm::length(now.position_m - before.position_m) / (now.time_s - before.time_s));
-    if (!(speed_mps <= max_track_speed_mps)) {
-        at.refuse(
-            fmt::format("expected a speed of at most {:.0f} m/s, got {:.1f} m/s", max_track_speed_mps, speed_mps));
+    void check_follows(const sim::AircraftState& next) const {
+        const sim::AircraftState& last = samples_.back();
+        if (!(next.time_s > last.time_s)) {
+            table_.refuse(fmt::format("a time after {:.3f} s", last.time_s), fmt::format("{:.3f} s", next.time_s));
+        }
+        if (!(next.time_s - samples_.front().time_s <= max_track_duration_s)) {
+            table_.refuse(fmt::format("a time within {:.0f} s of the first", max_track_duration_s),
+                fmt::format("{:.3f} s", next.time_s));
+        }
+        const double speed_mps = std::max(glm::length(next.velocity_mps),
+            glm::length(next.position_m - last.position_m) / (next.time_s - last.time_s));
+        if (!(speed_mps <= max_track_speed_mps)) {
+            table_.refuse(fmt::format("a speed of at most {:.0f} m/s", max_track_speed_mps),
+                fmt::format("{:.1f} m/s", speed_mps));
+        }
     }
-}
 
-/// Whether a line holds nothing but, at most, a comment.
-bool is_empty(std::string_view line) { return line.starts_with('#') || split_words(line).empty(); }
+    ColumnReader& table_;
+    bool is_jsbsim_;
+    TrackColumns columns_;
+    bool has_quaternion_ = false;
+    std::optional<TransverseMercator> frame_; ///< of JSBSim
+    std::vector<sim::AircraftState> samples_;
+};
 
-std::size_t line_of_names(std::span<const std::string_view> lines) {
-    return static_cast<std::size_t>(std::ranges::find_if_not(lines, is_empty) - lines.begin());
-}
-
-/// Whether a line names units below the names of columns: it holds something, and no number or time.
-bool are_units(const std::vector<std::string_view>& fields) {
-    return !are_empty(fields) &&
+/// True if the row below the names of columns gives units: it has text, but no number or time.
+bool are_units(std::span<const std::string_view> fields) {
+    return !std::ranges::all_of(fields, &std::string_view::empty) &&
            std::ranges::none_of(fields, [](std::string_view field) { return log_time(field).has_value(); });
 }
 
-/// The track that another program has logged, its units in a comment before the names or in a line behind them; nothing
-/// where the columns are ours or JSBSim's, or no flight's.
-std::optional<RecordedTrack> track_of_others(
-    const std::filesystem::path& file, std::span<const std::string_view> lines, std::size_t names_line) {
-    const char separator = separator_of(lines[names_line]);
-    const auto names = unquoted_fields(lines[names_line], separator);
-    if (are_track_columns(names)) { return std::nullopt; }
-    std::vector<std::string_view> units;
-    if (names_line > 0) { units = unquoted_fields(lines[names_line - 1], separator); }
-    std::size_t header_line = names_line;
-    if (names_line + 1 < lines.size()) {
-        const auto below = unquoted_fields(lines[names_line + 1], separator);
-        if (are_units(below)) {
-            units = below;
-            ++header_line;
-        }
+/// A log of another program, whose column names are the current row of `table`; its units are in a comment before the
+/// names or in the row below.
+RecordedTrack log_track(const std::filesystem::path& file, ColumnReader& table) {
+    const std::vector<std::string_view> names = table.fields();
+    std::vector<std::string_view> units = table_fields(table.comment(), separator_of(table.row()));
+    bool has_row = table.next_row();
+    if (has_row && are_units(table.fields())) {
+        units = table.fields();
+        has_row = table.next_row();
     }
     const auto columns = log_columns(names, units);
-    if (!columns) { return std::nullopt; }
-    LoggedTrack track = logged_track({file, lines, header_line, separator}, *columns);
-    return RecordedTrack{sim::Trajectory(std::move(track.samples)), track.origin, std::move(track.notes)};
-}
-
-RecordedTrack track_of_table(const std::filesystem::path& file, LogTable table) {
-    const std::vector<std::string_view> rows(table.rows.begin(), table.rows.end());
-    constexpr char separator = ',';
-    const auto columns = log_columns(unquoted_fields(log_table_columns, separator), {});
-    LoggedTrack track = logged_track({file, rows, 0, separator, table.line_numbers}, *columns);
-    table.notes.insert(table.notes.end(), track.notes.begin(), track.notes.end());
-    return {sim::Trajectory(std::move(track.samples)), track.origin, std::move(table.notes)};
+    LogReader reader(file, *columns);
+    for (; has_row; has_row = table.next_row()) { reader.read_row(table.line_number(), table.fields()); }
+    return std::move(reader).track();
 }
 
 } // namespace
 
 RecordedTrack read_recorded_track(const std::filesystem::path& file) {
     const std::string text = read_text_file(file);
-    if (is_gpx(text)) { return track_of_table(file, gpx_points(file, text)); }
-    auto lines = split_lines(text);
-    if (is_igc(lines)) { return track_of_table(file, igc_fixes(lines)); }
-    if (!lines.empty() && lines.front().starts_with("\xef\xbb\xbf")) { lines.front().remove_prefix(3); }
-    const std::size_t names = line_of_names(lines);
-    if (names == lines.size()) { throw_error_at(file, 1, "expected a line of column names, got an empty one"); }
-    if (auto track = track_of_others(file, lines, names)) { return std::move(*track); }
-    const TrackHeader header = track_header(lines[names], {file, static_cast<int>(names) + 1});
-    const bool as_quaternion = header.has({QuaternionW});
-    std::optional<TransverseMercator> frame;
-    std::vector<sim::AircraftState> samples;
-    for (std::size_t i = names + 1; i < lines.size(); ++i) {
-        if (is_empty(lines[i])) { continue; }
-        const TrackLineLocation at{file, static_cast<int>(i) + 1};
-        Row row = row_from(lines[i], header, at);
-        if (header.is_jsbsim) { row = own_from_jsbsim(row, header, frame, at); }
-        samples.push_back(state_from(row, as_quaternion, at));
-        if (samples.size() > 1) {
-            const sim::AircraftState& before = samples[samples.size() - 2];
-            check_times(samples.front().time_s, before.time_s, samples.back().time_s, at);
-            check_speed(before, samples.back(), at);
-        }
+    if (is_gpx(text)) { return gpx_track(file, text); }
+    if (const auto lines = split_lines(text); is_igc(lines)) { return igc_track(file, lines); }
+    ColumnReader table(TextScanner(file, text));
+    if (!table.next_row()) { throw_error_at(file, 1, "expected a line of column names, got an empty one"); }
+    const std::vector<std::string_view>& names = table.fields();
+    const bool is_log = !has_place(octant_columns, names) && !has_place(jsbsim_columns_in(names), names) &&
+                        log_columns(names, {}).has_value();
+    if (is_log) { return log_track(file, table); }
+    const bool is_octant = has_some(octant_columns, names);
+    if (!is_octant && !has_some(jsbsim_columns_in(names), names)) {
+        table.refuse(
+            "column names with a time, a place and an altitude among them (t_s, north_m, east_m, alt_m or Time, "
+            "Latitude, Longitude, Altitude)",
+            printable(std::string(table.row())));
     }
-    if (samples.size() < 2) {
-        throw_error_in(file, fmt::format("expected at least 2 samples, got {}", samples.size()));
-    }
-    if (!header.has({NorthSpeed, EastSpeed, UpSpeed})) { fill_velocities(samples); }
-    if (!as_quaternion && !header.has({Roll, Pitch, Yaw})) { fill_attitudes(samples); }
-    if (!header.has({LoadFactor})) { fill_load_factors(samples); }
-    return {sim::Trajectory(std::move(samples)), frame ? std::optional(frame->origin()) : std::nullopt, {}};
+    return TrackReader(table, !is_octant).track(file);
 }
 
 } // namespace octant::flightpaths

@@ -29,7 +29,7 @@ struct RecordedTrack {
 ///   JSBSim: Time, Latitude Geodetic (deg) or Latitude (deg), Longitude (deg), Altitude ASL (ft);
 ///           optional Phi (deg), Theta (deg), Psi (deg), and V_{North} (ft/s), V_{East} (ft/s),
 ///           V_{Down} (ft/s)
-///   others: names that log_columns() of track_table.h knows, such as Timestamp, Latitude, Longitude,
+///   others: names that log_columns() of log_columns.h knows, such as Timestamp, Latitude, Longitude,
 ///           Altitude (ft)
 /// Flight recorder files (IGC) and GPX files are recognised by their content. Optional quantities that are missing are
 /// derived from the motion (derived_motion.h). A quaternion of unit length, rounding aside, is not normalised again, so

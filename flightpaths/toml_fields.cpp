@@ -10,6 +10,7 @@
 #include <cmath>
 #include <cstdint>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <sstream>
 #include <utility>
 
@@ -77,19 +78,19 @@ TomlFields::TomlFields(const std::filesystem::path& file, const toml::table& tab
 
 std::optional<double> TomlFields::number(std::string_view name, std::string_view base_unit, NumberRange bounds) {
     std::optional<double> value;
-    std::string said;
+    std::string known_key;
     for (const Unit& unit : units) {
         if (unit.base != base_unit) { continue; }
         const std::string key = key_with(name, unit.name);
         const toml::node* node = take(key);
         if (node == nullptr) { continue; }
-        if (value) { refuse(line_of(*node), fmt::format("expected one of {} and {}, got both", said, key)); }
+        if (value) { refuse(line_of(*node), fmt::format("expected one of {} and {}, got both", known_key, key)); }
         const double number = number_of(*node, key);
         value = number * unit.in_base;
-        said = key;
-        if (*value < bounds.least || *value > bounds.most) {
+        known_key = key;
+        if (*value < bounds.min || *value > bounds.max) {
             refuse(line_of(*node), fmt::format("expected {} from {:.6g} to {:.6g}, got {:.6g}", key,
-                                       bounds.least / unit.in_base, bounds.most / unit.in_base, number));
+                                       bounds.min / unit.in_base, bounds.max / unit.in_base, number));
         }
     }
     return value;
@@ -104,15 +105,15 @@ double TomlFields::required_number(std::string_view name, std::string_view base_
     refuse_missing(keys);
 }
 
-int TomlFields::required_integer(std::string_view name, int least, int most) {
+int TomlFields::required_integer(std::string_view name, int min, int max) {
     const toml::node* node = take(name);
     if (node == nullptr) { refuse_missing(name); }
     const auto value = node->value_exact<std::int64_t>();
     if (!value) {
         refuse(line_of(*node), fmt::format("expected {} to be a whole number, got {}", name, kind_of(*node)));
     }
-    if (*value < least || *value > most) {
-        refuse(line_of(*node), fmt::format("expected {} from {} to {}, got {}", name, least, most, *value));
+    if (*value < min || *value > max) {
+        refuse(line_of(*node), fmt::format("expected {} from {} to {}, got {}", name, min, max, *value));
     }
     return static_cast<int>(*value);
 }
@@ -134,15 +135,14 @@ std::string TomlFields::required_text(std::string_view name) {
     refuse_missing(name);
 }
 
-std::string TomlFields::required_word(std::string_view name, std::initializer_list<std::string_view> words) {
-    std::string word = required_text(name);
-    std::string list;
-    for (const std::string_view allowed : words) {
-        if (word == allowed) { return word; }
-        list += (list.empty() ? "" : ", ") + std::string(allowed);
+std::size_t TomlFields::required_word(std::string_view name, std::span<const std::string_view> words) {
+    const std::string word = required_text(name);
+    const auto found = std::ranges::find(words, word);
+    if (found == words.end()) {
+        refuse(line_of(*table_.get(name)),
+            fmt::format("expected {} to be one of {}, got \"{}\"", name, fmt::join(words, ", "), printable(word)));
     }
-    refuse(line_of(*table_.get(name)),
-        fmt::format("expected {} to be one of {}, got \"{}\"", name, list, printable(word)));
+    return static_cast<std::size_t>(found - words.begin());
 }
 
 const toml::table& TomlFields::required_table(std::string_view name) {

@@ -1,10 +1,11 @@
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <functional>
-#include <initializer_list>
 #include <optional>
 #include <set>
+#include <span>
 #include <string>
 #include <string_view>
 #include <toml++/toml.h>
@@ -13,13 +14,13 @@ namespace octant::flightpaths {
 
 /// Smallest and largest number that a key may have.
 struct NumberRange {
-    double least = 0.0;
-    double most = 0.0;
+    double min = 0.0;
+    double max = 0.0;
 };
 
-/// The keys of one TOML table, taken one by one; what is left over at the end is refused. The unit of a number is the
-/// end of its key: speed_mps and speed_kt are two ways to say one thing. All numbers come back in SI units and radians.
-/// Every fault throws Error with the file and the line.
+/// The keys of one TOML table, read one by one; finish() refuses the keys that were not read. The unit of a number is
+/// the end of its key, so that speed_mps and speed_kt are two keys of one value. All numbers are returned in SI units
+/// and radians. Every fault throws Error with the file and the line.
 class TomlFields {
 public:
     TomlFields(const std::filesystem::path& file, const toml::table& table);
@@ -30,11 +31,11 @@ public:
     /// `name` alone when `base_unit` is empty. Bounds are in the base unit.
     std::optional<double> number(std::string_view name, std::string_view base_unit, NumberRange bounds);
     double required_number(std::string_view name, std::string_view base_unit, NumberRange bounds);
-    int required_integer(std::string_view name, int least, int most);
+    int required_integer(std::string_view name, int min, int max);
     std::optional<std::string> text(std::string_view name);
     std::string required_text(std::string_view name);
-    /// One of the words; their order is the order in which a message lists them.
-    std::string required_word(std::string_view name, std::initializer_list<std::string_view> words);
+    /// The index of one of the words; a message lists them in their order.
+    std::size_t required_word(std::string_view name, std::span<const std::string_view> words);
     /// The table under `name`, which must be there.
     const toml::table& required_table(std::string_view name);
     /// The array of tables under `name`, which must be there with at least one table.

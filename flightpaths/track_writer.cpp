@@ -7,14 +7,12 @@
 #include "sim/aircraft_kind.h"
 #include "sim/base/axes.h"
 #include "sim/base/earth_frame.h"
-#include "sim/base/format_once.h"
 #include "sim/base/units.h"
 
 #include <glm/geometric.hpp>
 
 #include <cmath>
 #include <fmt/format.h>
-#include <iterator>
 #include <string_view>
 #include <utility>
 
@@ -96,9 +94,9 @@ std::string exact_track_csv(const sim::Trajectory& trajectory) {
     for (const sim::AircraftState& state : trajectory.samples()) {
         const glm::dquat& attitude = state.body_to_world;
         // Without a precision fmt writes the shortest text that reads back as the same number.
-        fmt::format_to(std::back_inserter(text), "{},{},{},{},{},{},{},{},{},{},{},{}\n", state.time_s,
-            state.position_m.y, state.position_m.x, state.position_m.z, state.velocity_mps.y, state.velocity_mps.x,
-            state.velocity_mps.z, state.load_factor, attitude.w, attitude.x, attitude.y, attitude.z);
+        text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{}\n", state.time_s, state.position_m.y,
+            state.position_m.x, state.position_m.z, state.velocity_mps.y, state.velocity_mps.x, state.velocity_mps.z,
+            state.load_factor, attitude.w, attitude.x, attitude.y, attitude.z);
     }
     return text;
 }

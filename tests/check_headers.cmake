@@ -1,7 +1,6 @@
 # Fails when a file uses a name of the standard library, of fmt or of glm whose header neither it nor
 # a header of this project that it includes names. Compilers cannot tell: the common headers are
-# precompiled into every file (octant_common_headers in CMakeLists.txt). And fmt::format_to is used only
-# with the header that keeps it from being compiled again in each file.
+# precompiled into every file (octant_common_headers in CMakeLists.txt).
 cmake_minimum_required(VERSION 3.25)
 
 # declares(header names ...): where the names that the common headers declare come from.
@@ -99,9 +98,6 @@ foreach(file ${files})
       message(SEND_ERROR "${file}: uses ${name}, expected #include <${header}>")
     endif()
   endforeach()
-  if("${lines}" MATCHES "fmt::format_to" AND NOT "sim/base/format_once.h" IN_LIST named)
-    message(SEND_ERROR "${file}: uses fmt::format_to, expected #include \"sim/base/format_once.h\"")
-  endif()
   foreach(library fmt glm)
     if("${lines}" MATCHES "${library}::" AND NOT "${named}" MATCHES "(^|;)${library}/")
       message(SEND_ERROR "${file}: uses ${library}, expected one of its headers")

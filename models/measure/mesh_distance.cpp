@@ -160,14 +160,15 @@ bool is_flipped(const TargetSurface& original, const glm::dvec3& point_m, const 
 
 } // namespace
 
-double flipped_area_share(const TriangleMesh& mesh, const TriangleMesh& original, const FlippedAreaOptions& options) {
+double flipped_area_share(
+    const TriangleMesh& mesh, const TriangleMesh& original, double reach_m, const SampleOptions& options) {
     assert(!original.triangles.empty() && options.samples > 0);
     const TargetSurface target(original);
     const auto take = [&](Sums& sums, const SurfacePoint& here, const NearestOnMesh& nearest) {
         const glm::dvec3 normal = area_vector(mesh, mesh.triangles[here.triangle]);
-        sums.flipped += is_flipped(target, here.point_m, normal, nearest, options.reach_m) ? 1U : 0U;
+        sums.flipped += is_flipped(target, here.point_m, normal, nearest, reach_m) ? 1U : 0U;
     };
-    const Sums sums = summed(mesh, target, {options.samples, options.threads}, take);
+    const Sums sums = summed(mesh, target, options, take);
     return static_cast<double>(sums.flipped) / static_cast<double>(options.samples);
 }
 
@@ -487,8 +488,8 @@ bool nearer(const Piece& one, const Piece& other) { return one.max_m < other.max
 /// One branch-and-bound search.
 class Search {
 public:
-    Search(const TriangleMesh& mesh, const TargetSurface& target, const HausdorffLimits& limits)
-        : mesh_(mesh), target_(target), limits_(limits) {}
+    Search(const TriangleMesh& mesh, const TargetSurface& target, const DistanceOptions& options)
+        : mesh_(mesh), target_(target), options_(options) {}
 
     HausdorffBounds run();
 
@@ -503,9 +504,10 @@ private:
     static constexpr std::uint32_t fresh = NearestOnMesh::none;
     static constexpr std::size_t chunk = 64;
     static constexpr std::size_t batch = 1024;
+    static constexpr std::size_t max_cuts = std::size_t{1} << 22U;
 
     /// Pieces whose bound is below this need not be cut any further.
-    double enough_m() const { return std::max(limits_.negligible_m, limits_.tightness * min_m_); }
+    double enough_m() const { return std::max(options_.negligible_m, options_.tightness * min_m_); }
 
     /// The samples at the corners of a piece; `between` stands for a fresh corner.
     Corners corners_of(const Piece& piece, const Sample* between = nullptr) const;
@@ -526,13 +528,13 @@ private:
     /// Calls `work(first, last)` for chunks of 0 to `count`, on several threads.
     template <typename Work>
     void in_chunks(std::size_t count, const Work& work) const {
-        parallel_for((count + chunk - 1) / chunk, limits_.threads,
+        parallel_for((count + chunk - 1) / chunk, options_.threads,
             [&](std::size_t i, std::size_t) { work(i * chunk, std::min(count, (i + 1) * chunk)); });
     }
 
     const TriangleMesh& mesh_;
     const TargetSurface& target_;
-    const HausdorffLimits& limits_;
+    const DistanceOptions& options_;
     std::vector<Sample> samples_; ///< The mesh's vertices first, then one for each cut.
     std::vector<char> is_exact_;  ///< For each vertex whether its distance is no upper bound only.
     std::vector<Piece> open_;     ///< A heap; the piece with the largest bound is on top.
@@ -561,7 +563,7 @@ void Search::measure_vertices() {
         if (used[first] != 0) { samples_[first] = measured(target_, mesh_.vertices_m[first], NearestOnMesh::none); }
     });
     take_min();
-    const double enough = std::max(limits_.negligible_m, min_m_);
+    const double enough = std::max(options_.negligible_m, min_m_);
     in_chunks(used.size(), [&](std::size_t first, std::size_t last) {
         std::uint32_t guess = samples_[first].nearest;
         for (std::size_t i = first + 1; i < last; ++i) {
@@ -584,7 +586,7 @@ void Search::take_min() {
 
 /// The triangles that their corners alone do not bound well enough, in order. Their corners are measured exactly then.
 std::vector<std::uint32_t> Search::triangles_in_question() {
-    const double enough = std::max(limits_.negligible_m, min_m_);
+    const double enough = std::max(options_.negligible_m, min_m_);
     std::vector<double> max_m(mesh_.triangles.size());
     in_chunks(max_m.size(), [&](std::size_t first, std::size_t last) {
         for (std::size_t i = first; i < last; ++i) {
@@ -685,7 +687,7 @@ void Search::cut_batch() {
 HausdorffBounds Search::run() {
     measure_vertices();
     take_triangles();
-    while (!open_.empty() && open_.front().max_m > enough_m() && cuts_ < limits_.cuts) { cut_batch(); }
+    while (!open_.empty() && open_.front().max_m > enough_m() && cuts_ < max_cuts) { cut_batch(); }
     const double open_m = open_.empty() ? 0.0 : open_.front().max_m;
     return {min_m_, std::max({min_m_, left_out_m_, open_m}), cuts_};
 }
@@ -693,17 +695,17 @@ HausdorffBounds Search::run() {
 } // namespace
 
 HausdorffBounds one_way_hausdorff(
-    const TriangleMesh& mesh, const TargetSurface& target, const HausdorffLimits& limits) {
+    const TriangleMesh& mesh, const TargetSurface& target, const DistanceOptions& options) {
     assert(!mesh.triangles.empty() && !target.mesh().triangles.empty());
     const BoundingBox extent = models::bounds_of(mesh);
     const glm::dvec3 farthest = glm::max(glm::abs(extent.min_m), glm::abs(extent.max_m));
     const double rounding_m = target.bvh().rounding_m() + 256.0 * std::numeric_limits<double>::epsilon() *
                                                               std::max({farthest.x, farthest.y, farthest.z});
-    HausdorffLimits wanted = limits;
-    wanted.negligible_m = std::max(limits.negligible_m, 4.0 * rounding_m);
+    DistanceOptions wanted = options;
+    wanted.negligible_m = std::max(options.negligible_m, 4.0 * rounding_m);
     HausdorffBounds bounds = Search(mesh, target, wanted).run();
-    bounds.min_m = std::max(0.0, bounds.min_m - rounding_m);
-    bounds.max_m += rounding_m;
+    bounds.min_hausdorff_m = std::max(0.0, bounds.min_hausdorff_m - rounding_m);
+    bounds.max_hausdorff_m += rounding_m;
     return bounds;
 }
 
@@ -717,16 +719,12 @@ void show(const DistanceOptions& options, int done) {
 /// The two steps after those that are `done`.
 OneWayDistance one_way(
     const TriangleMesh& mesh, const TargetSurface& target, const DistanceOptions& options, int done) {
-    HausdorffLimits limits;
-    limits.tightness = options.tightness;
-    limits.negligible_m = options.negligible_m;
-    limits.threads = options.threads;
-    const HausdorffBounds bounds = one_way_hausdorff(mesh, target, limits);
+    const HausdorffBounds bounds = one_way_hausdorff(mesh, target, options);
     show(options, done + 1);
     const SampledDistance sampled =
         sampled_distance(mesh, target, {.samples = options.samples, .threads = options.threads});
     show(options, done + 2);
-    return {bounds.min_m, bounds.max_m, sampled.rms_m, sampled.mean_m, sampled.colour_rms};
+    return {bounds, sampled};
 }
 
 } // namespace

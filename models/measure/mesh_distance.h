@@ -10,92 +10,39 @@
 
 namespace octant::models::measure {
 
-/// How finely flipped_area_share looks.
-struct FlippedAreaOptions {
-    /// How far around a point a face that faces its way may be, metres; see below. The RMS distance is a good choice
-    /// for a simplified mesh.
-    double reach_m = 0.0;
-    std::size_t samples = 100'000;
-    int threads = 1; ///< The number of threads; it does not change the result.
+/// Certified bounds of the one-sided Hausdorff distance: the largest distance from any point of one surface to another
+/// surface is at least `min_hausdorff_m` and at most `max_hausdorff_m`.
+struct HausdorffBounds {
+    double min_hausdorff_m = 0.0;
+    double max_hausdorff_m = 0.0;
+    std::size_t cuts = 0; ///< the number of cuts of triangles that the search took
 };
 
-/// The share, 0 to 1, of the area of `mesh` that faces against `original`: the points whose triangle's normal is more
-/// than 90 degrees off the normal at the nearest point of the original. In thin parts the nearest point may lie on the
-/// opposite side; so a point counts only if no triangle of the original within twice the least distance, or within
-/// `reach_m`, faces its way. Both meshes need triangles (asserted).
-double flipped_area_share(
-    const TriangleMesh& mesh, const TriangleMesh& original, const FlippedAreaOptions& options = {});
-
-/// Mean values over a surface's area, from samples.
+/// Mean distances from the points of one surface to another surface, over its area, from samples.
 struct SampledDistance {
     double rms_m = 0.0;
     double mean_m = 0.0;
-    /// In RGB with parts 0 to 1; 0 where one of the meshes has no colours.
-    double colour_rms = 0.0;
-};
-
-/// What sampled_distance measures.
-struct SampleOptions {
-    std::size_t samples = 0;
-    int threads = 1; ///< The number of threads; it does not change the result.
-};
-
-/// Measures the distances from points spread evenly over `mesh`, always the same ones for the same mesh and number, to
-/// `target`. Any number of threads gives the same bits. The mesh needs triangles (asserted).
-SampledDistance sampled_distance(const TriangleMesh& mesh, const TargetSurface& target, const SampleOptions& options);
-
-/// When the search for the largest distance may end. Whenever it ends, its bounds are certified.
-struct HausdorffLimits {
-    /// The search ends when the upper bound is at most this many times the lower one.
-    double tightness = 1.01;
-    /// It also ends when the upper bound is at most this.
-    double negligible_m = 0.0;
-    /// It ends after so many cuts, too.
-    std::size_t cuts = std::size_t{1} << 22U;
-    int threads = 1; ///< The number of threads; it does not change the result.
-};
-
-/// The largest distance from a point of one surface to another surface lies between these two.
-struct HausdorffBounds {
-    double min_m = 0.0;
-    double max_m = 0.0;
-    std::size_t cuts = 0; ///< How many cuts the search took.
-};
-
-/// Bounds of the one-sided Hausdorff distance: the largest distance from any point of `mesh`'s triangles to `target`.
-/// Rounding is allowed for in both bounds. Both meshes need triangles (asserted).
-HausdorffBounds one_way_hausdorff(const TriangleMesh& mesh, const TargetSurface& target, const HausdorffLimits& limits);
-
-/// Distances from the points of one surface to another surface, metres.
-struct OneWayDistance {
-    /// The one-sided Hausdorff distance is at least this ...
-    double min_hausdorff_m = 0.0;
-    /// ... and at most this.
-    double max_hausdorff_m = 0.0;
-    double rms_m = 0.0;  ///< The root mean square over the surface's area, sampled.
-    double mean_m = 0.0; ///< The mean over the surface's area, sampled.
     /// The root mean square of the difference in colour to the nearest point, as a length in RGB with parts 0 to 1; 0
-    /// without colours.
+    /// if one of the surfaces has no colours.
     double colour_rms = 0.0;
 };
+
+struct OneWayDistance : HausdorffBounds, SampledDistance {};
 
 /// The distances both ways between surfaces a and b. Each two-sided figure is the larger one of the two.
 struct MeshDistance {
     OneWayDistance there; ///< From the points of a to b.
     OneWayDistance back;  ///< From the points of b to a.
 
-    double min_hausdorff_m() const { return larger(&OneWayDistance::min_hausdorff_m); }
+    double min_hausdorff_m() const { return std::max(there.min_hausdorff_m, back.min_hausdorff_m); }
 
-    double max_hausdorff_m() const { return larger(&OneWayDistance::max_hausdorff_m); }
+    double max_hausdorff_m() const { return std::max(there.max_hausdorff_m, back.max_hausdorff_m); }
 
-    double rms_m() const { return larger(&OneWayDistance::rms_m); }
+    double rms_m() const { return std::max(there.rms_m, back.rms_m); }
 
-    double mean_m() const { return larger(&OneWayDistance::mean_m); }
+    double mean_m() const { return std::max(there.mean_m, back.mean_m); }
 
-    double colour_rms() const { return larger(&OneWayDistance::colour_rms); }
-
-private:
-    double larger(double OneWayDistance::*figure) const { return std::max(there.*figure, back.*figure); }
+    double colour_rms() const { return std::max(there.colour_rms, back.colour_rms); }
 };
 
 /// How accurately distances are measured.
@@ -109,7 +56,7 @@ struct DistanceOptions {
     int threads = 1; ///< The number of threads; it does not change the result.
     /// Only the larger one of the Hausdorff distances of the two ways need be tight.
     bool maximum_only = false;
-    /// A tree over the triangles of a, where there is one already.
+    /// A tree over the triangles of a, if there is one already.
     std::shared_ptr<const TriangleBvh> tree_of_a{};
     /// Called between the steps of the work with how many of them are done; may be empty.
     std::function<void(int done, int steps)> progress{};
@@ -119,5 +66,28 @@ struct DistanceOptions {
 /// triangles, with rounding allowed for. They are as tight as was asked for unless that takes more than four million
 /// cuts, as for surfaces at nearly the same distance everywhere. Both meshes need triangles (asserted).
 MeshDistance distance(const TriangleMesh& a, const TriangleMesh& b, const DistanceOptions& options = {});
+
+/// The Hausdorff bounds from `mesh` to `target` alone, by `tightness`, `negligible_m` (0 = rounding) and `threads` of
+/// the options. Both meshes need triangles (asserted).
+HausdorffBounds one_way_hausdorff(
+    const TriangleMesh& mesh, const TargetSurface& target, const DistanceOptions& options);
+
+/// How many points of a surface are sampled.
+struct SampleOptions {
+    std::size_t samples = 100'000;
+    int threads = 1; ///< The number of threads; it does not change the result.
+};
+
+/// Measures the distances from points spread evenly over `mesh`, always the same ones for the same mesh and number, to
+/// `target`. Any number of threads gives the same bits. The mesh needs triangles (asserted).
+SampledDistance sampled_distance(const TriangleMesh& mesh, const TargetSurface& target, const SampleOptions& options);
+
+/// The share, 0 to 1, of the area of `mesh` that faces against `original`: the points whose triangle's normal is more
+/// than 90 degrees off the normal at the nearest point of the original. In thin parts the nearest point may lie on the
+/// opposite side; so a point counts only if no triangle of the original within twice the least distance, or within
+/// `reach_m`, faces its way. The RMS distance is a good `reach_m` for a simplified mesh. Both meshes need triangles
+/// (asserted).
+double flipped_area_share(
+    const TriangleMesh& mesh, const TriangleMesh& original, double reach_m = 0.0, const SampleOptions& options = {});
 
 } // namespace octant::models::measure

@@ -2,14 +2,12 @@
 #include "models/meshfile/mesh_formats.h"
 #include "models/polygons/obj_reader.h"
 #include "sim/base/error.h"
-#include "sim/base/format_once.h"
 #include "sim/base/text_file.h"
 #include "sim/base/text_scanner.h"
 
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
-#include <iterator>
 #include <map>
 #include <optional>
 
@@ -214,18 +212,17 @@ std::string mtl_text(const TriangleMesh& mesh, const std::vector<std::string>& n
 }
 
 void append_vertices(std::string& text, const TriangleMesh& mesh) {
-    auto out = std::back_inserter(text);
     for (std::size_t v = 0; v < mesh.vertices_m.size(); ++v) {
         const glm::dvec3& place_m = mesh.vertices_m[v];
-        fmt::format_to(out, "v {} {} {}", place_m.x, place_m.y, place_m.z);
+        text += fmt::format("v {} {} {}", place_m.x, place_m.y, place_m.z);
         if (!mesh.colours.empty()) {
             const glm::vec3& colour = mesh.colours[v];
-            fmt::format_to(out, " {} {} {}", colour.x, colour.y, colour.z);
+            text += fmt::format(" {} {} {}", colour.x, colour.y, colour.z);
         }
         text += '\n';
     }
-    for (const glm::vec2& place : mesh.texture_coordinates) { fmt::format_to(out, "vt {} {}\n", place.x, place.y); }
-    for (const glm::vec3& normal : mesh.normals) { fmt::format_to(out, "vn {} {} {}\n", normal.x, normal.y, normal.z); }
+    for (const glm::vec2& place : mesh.texture_coordinates) { text += fmt::format("vt {} {}\n", place.x, place.y); }
+    for (const glm::vec3& normal : mesh.normals) { text += fmt::format("vn {} {} {}\n", normal.x, normal.y, normal.z); }
 }
 
 } // namespace
@@ -237,7 +234,6 @@ ObjMeshText obj_mesh_text(const TriangleMesh& mesh, std::string_view mtl_name) {
     text.obj = fmt::format("# {} vertices, {} triangles\n", mesh.vertices_m.size(), mesh.triangles.size());
     if (!names.empty()) { text.obj += fmt::format("mtllib {}\n", mtl_name); }
     append_vertices(text.obj, mesh);
-    const auto out = std::back_inserter(text.obj);
     std::uint32_t material = invalid_index;
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
         if (!mesh.triangle_materials.empty() && mesh.triangle_materials[t] != material) {
@@ -246,12 +242,12 @@ ObjMeshText obj_mesh_text(const TriangleMesh& mesh, std::string_view mtl_name) {
         }
         text.obj += 'f';
         for (std::size_t k = 0; k < 3; ++k) {
-            fmt::format_to(out, " {}", mesh.triangles[t][k] + 1);
+            text.obj += fmt::format(" {}", mesh.triangles[t][k] + 1);
             const bool has_texture =
                 !mesh.corner_texture_coordinates.empty() && mesh.corner_texture_coordinates[t][k] != invalid_index;
-            if (has_texture) { fmt::format_to(out, "/{}", mesh.corner_texture_coordinates[t][k] + 1); }
+            if (has_texture) { text.obj += fmt::format("/{}", mesh.corner_texture_coordinates[t][k] + 1); }
             if (!mesh.corner_normals.empty()) {
-                fmt::format_to(out, "{}{}", has_texture ? "/" : "//", mesh.corner_normals[t][k] + 1);
+                text.obj += fmt::format("{}{}", has_texture ? "/" : "//", mesh.corner_normals[t][k] + 1);
             }
         }
         text.obj += '\n';

@@ -2,7 +2,6 @@
 #include "models/meshfile/mesh_formats.h"
 #include "models/meshfile/mesh_join.h"
 #include "sim/base/error.h"
-#include "sim/base/format_once.h"
 #include "sim/base/text_file.h"
 #include "sim/base/text_scanner.h"
 
@@ -17,7 +16,6 @@
 #include <cstdint>
 #include <filesystem>
 #include <fmt/format.h>
-#include <iterator>
 #include <map>
 #include <string_view>
 #include <tuple>
@@ -567,9 +565,7 @@ constexpr std::array<std::string_view, 10> taken_words{
 template <typename Vector>
 void append_list(std::string& text, std::string_view head, const std::vector<Vector>& vectors) {
     text += fmt::format("      {} [\n", head);
-    for (const Vector& vector : vectors) {
-        fmt::format_to(std::back_inserter(text), "{} {} {},\n", vector.x, vector.y, vector.z);
-    }
+    for (const Vector& vector : vectors) { text += fmt::format("{} {} {},\n", vector.x, vector.y, vector.z); }
     text += "      ] }\n";
 }
 
@@ -621,7 +617,7 @@ private:
         for (std::size_t t = 0; t < corners.size(); ++t) {
             if (mesh_.triangle_materials.empty() || mesh_.triangle_materials[t] == material) {
                 const auto [a, b, c] = corners[t];
-                fmt::format_to(std::back_inserter(text_), "{} {} {} -1\n", a, b, c);
+                text_ += fmt::format("{} {} {} -1\n", a, b, c);
             }
         }
         text_ += "      ]\n";

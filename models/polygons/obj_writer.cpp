@@ -1,6 +1,5 @@
 #include "models/polygons/obj_writer.h"
 
-#include "sim/base/format_once.h"
 #include "sim/base/output_file.h"
 
 #include <cmath>
@@ -41,8 +40,8 @@ std::string pivot_text(const Pivot& pivot, std::string_view part, const FileAxes
 std::string mtl_text(const PolygonModel& model) {
     std::string text;
     for (const Material& material : model.materials) {
-        fmt::format_to(std::back_inserter(text), "newmtl {}\nKd {} {} {}\n", material.name, material.colour.x,
-            material.colour.y, material.colour.z);
+        text += fmt::format(
+            "newmtl {}\nKd {} {} {}\n", material.name, material.colour.x, material.colour.y, material.colour.z);
     }
     return text;
 }

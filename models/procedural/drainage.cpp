@@ -33,7 +33,7 @@ std::array<std::ptrdiff_t, 8> steps_around(int row_step) {
 std::vector<std::uint8_t> donors_of(const std::vector<int>& receiver, int side) {
     const auto steps = steps_around(side);
     std::vector<std::uint8_t> donors(receiver.size(), 0);
-    by_rows(side, [&](int row) {
+    parallel_for_rows(side, [&](int row) {
         const auto first = static_cast<std::ptrdiff_t>(row) * side;
         for (int column = 0; column < side; ++column) {
             const std::ptrdiff_t cell = first + column;
@@ -182,7 +182,7 @@ Drainage compute_drainage(const TerrainGrid& ground, const std::vector<char>& is
     water.receiver.resize(count);
     water.length_m.resize(count);
     water.area_m2.assign(count, ground.cell_m * ground.cell_m);
-    by_rows(ground.side, [&](int row) {
+    parallel_for_rows(ground.side, [&](int row) {
         const std::size_t first = ground.index(0, row);
         const auto side = static_cast<std::size_t>(ground.side);
         choose_receivers(ground, row, seed, {{&water.receiver[first], side}, {&water.length_m[first], side}});

@@ -66,7 +66,7 @@ Network first_network(double extent_m, std::uint64_t seed) {
     network.places.resize(ground.values.size());
     const FractalNoise plateau = {seed + 311, 5200.0, 5, 0.55};
     const DomainWarp warp = {seed + 313, 28.0 * ground.cell_m, 4};
-    by_rows(side, [&](int row) {
+    parallel_for_rows(side, [&](int row) {
         RowPoints places = points_of_row(ground, row);
         const std::span<double> line = ground.row(row);
         plateau.at(places.x_m, places.y_m, line);
@@ -214,7 +214,7 @@ EvenRock unlimited(double field_m, double spacing_m, std::uint64_t seed) {
     EvenRock rock = {TerrainGrid(side, cell_m), TerrainGrid(side, cell_m), margin * cell_m};
     std::fill(rock.height_m.values.begin(), rock.height_m.values.end(), 1e9);
     const FractalNoise weathering = {seed + 101, 1100.0, 4, 0.6};
-    by_rows(side, [&](int row) {
+    parallel_for_rows(side, [&](int row) {
         RowPoints places = points_of_row(rock.slope, row);
         for (std::size_t i = 0; i < places.x_m.size(); ++i) {
             places.x_m[i] = places.x_m[i] - rock.margin_m - 0.5 * field_m;
@@ -341,7 +341,7 @@ heights::HeightField procedural_canyon(const ProceduralTerrainOptions& options) 
     const Surface surface(rock, half_m, seed);
     const auto size = static_cast<std::size_t>(options.size);
     std::vector<float> heights_m(size * size);
-    by_rows(options.size, [&](int row) {
+    parallel_for_rows(options.size, [&](int row) {
         RowPoints places(size);
         for (int column = 0; column < options.size; ++column) {
             const auto i = static_cast<std::size_t>(column);

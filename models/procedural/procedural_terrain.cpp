@@ -41,7 +41,7 @@ TerrainGrid first_ground(double extent_m, std::uint64_t seed) {
     const int side = std::clamp(static_cast<int>(extent_m / coarse_cell_m) + 1, 33, 513);
     TerrainGrid ground(side, extent_m / (side - 1));
     const FractalNoise lowland = {seed + 11, 7000.0, 3, 0.5};
-    by_rows(side, [&](int row) {
+    parallel_for_rows(side, [&](int row) {
         const RowPoints places = points_of_row(ground, row);
         const std::span<double> line = ground.row(row);
         lowland.at(places.x_m, places.y_m, line);
@@ -54,7 +54,7 @@ TerrainGrid first_ground(double extent_m, std::uint64_t seed) {
 std::vector<double> uplift_of(const TerrainGrid& ground, std::uint64_t seed) {
     const FractalNoise ranges = {seed + 23, 6500.0, 3, 0.45};
     std::vector<double> uplift(ground.values.size());
-    by_rows(ground.side, [&](int row) {
+    parallel_for_rows(ground.side, [&](int row) {
         const RowPoints places = points_of_row(ground, row);
         const std::span<double> line(&uplift[ground.index(0, row)], places.x_m.size());
         ranges.at(places.x_m, places.y_m, line);
@@ -121,7 +121,7 @@ heights::HeightField procedural_hills(const ProceduralTerrainOptions& options) {
     const FractalNoise detail = {seed + 47, 500.0, 5, 0.5};
     const auto size = static_cast<std::size_t>(options.size);
     std::vector<float> heights_m(size * size);
-    by_rows(options.size, [&](int row) {
+    parallel_for_rows(options.size, [&](int row) {
         RowPoints places(size);
         for (std::size_t column = 0; column < size; ++column) {
             const double east_m = static_cast<double>(column) * options.spacing_m - 0.5 * field_m;

@@ -50,7 +50,7 @@ RowPoints points_of_row(const TerrainGrid& grid, int row) {
 
 TerrainGrid refined(const TerrainGrid& grid, const DomainWarp& warp) {
     TerrainGrid fine(2 * grid.side - 1, grid.cell_m / 2.0);
-    by_rows(fine.side, [&](int row) {
+    parallel_for_rows(fine.side, [&](int row) {
         RowPoints places = points_of_row(fine, row);
         warp.move(places.x_m, places.y_m, 1.0);
         for (int column = 0; column < fine.side; ++column) {
@@ -65,7 +65,7 @@ void diffuse(TerrainGrid& grid, double share) {
     assert(grid.side >= 3);
     const std::vector<double> old = grid.values;
     const auto step = static_cast<std::size_t>(grid.side);
-    by_rows(grid.side - 2, [&](int from_second) {
+    parallel_for_rows(grid.side - 2, [&](int from_second) {
         for (int column = 1; column + 1 < grid.side; ++column) {
             const std::size_t i = grid.index(column, from_second + 1);
             const double around = old[i - 1] + old[i + 1] + old[i - step] + old[i + step];

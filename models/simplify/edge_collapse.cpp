@@ -1,18 +1,17 @@
-// Edge collapses, the cheapest first. Quadrics determine the position of the new vertex (quadrics.cpp), the cost
-// determines the order.
+// Edge collapses, the cheapest first: EdgeCollapse orders them, CollapsingSurface records them, CollapsibleMesh changes
+// the connectivity. Quadrics determine the position of the new vertex (quadrics.cpp), the cost determines the order.
 //
-// - By quadrics: the cost is the quadric itself, as in M. Garland, P. Heckbert, "Surface
-//   Simplification Using Quadric Error Metrics", 1997, weighted by area. It is cheap and serves
-//   while errors are far below those at the goal.
-// - By samples: the cost is how much the error against samples of the original grows, both ways
-//   (local_error.cpp). As it is expensive, it is evaluated lazily: a collapse marks the edges
-//   around it as unchecked, and an unchecked edge is evaluated anew when its old cost reaches the
-//   top of the heap.
+// - By quadrics: the cost is the quadric itself, as in M. Garland, P. Heckbert, "Surface Simplification Using Quadric
+//   Error Metrics", 1997, weighted by area. It is cheap and serves while errors are far below those at the goal.
+// - By samples: the cost is how much the error against samples of the original grows, both ways (local_error.cpp). As
+//   it is expensive, it is evaluated lazily: a collapse marks the edges around it as unchecked, and an unchecked edge
+//   is evaluated anew when its old cost reaches the top of the heap.
 #include "models/simplify/edge_collapse.h"
 
 #include "models/measure/triangle_bvh.h"
 #include "models/simplify/edge_heap.h"
 #include "models/simplify/local_error.h"
+#include "models/simplify/shells.h"
 #include "models/simplify/surface_samples.h"
 #include "models/simplify/working_surface.h"
 
@@ -94,198 +93,9 @@ SlotMap CollapsingSurface::compact() {
 
 namespace {
 
-// Shells of an assembly: the rest of a small shell may cost more triangles than it is worth.
-
-/// Shells that are farther from the others than this are not dropped, in working units.
-constexpr double max_shell_distance = 0.5;
-
-/// The connected components (shells) of a surface during collapses, and the cost of dropping one.
-class Shells {
-public:
-    /// A shell with a sample that is farther than `max_distance` from the others is not dropped: the usual
-    /// max_shell_distance, for which only some samples are looked at, or less. The samples must be in lists. All must
-    /// outlive this.
-    Shells(
-        CollapsingSurface& collapsing, SurfaceSamples& samples, const OriginalSurface& original, double max_distance);
-
-    std::size_t count() const { return faces_.size(); }
-
-    /// Of those that were not dropped.
-    std::size_t count_left() const { return count_left_; }
-
-    std::uint32_t shell_of(std::uint32_t face) const { return of_face_[face]; }
-
-    /// The number of triangles that a shell has now; 0 = it was dropped.
-    std::size_t face_count(std::uint32_t shell) const { return face_counts_[shell]; }
-
-    /// Counts triangles of a shell that went.
-    void lose(std::uint32_t shell, std::size_t faces) { face_counts_[shell] -= faces; }
-
-    /// The growth of the error when a shell is dropped: its samples then have the distance of the nearest other shell
-    /// of the original. Infinite if there is no other shell or it is far away.
-    double cost(std::uint32_t shell) const;
-
-    /// Drops a shell after calling `gone` with each of its triangles. Its samples move to the nearest other triangles.
-    template <typename Gone>
-    void drop(std::uint32_t shell, const Gone& gone) {
-        std::vector<std::uint32_t> numbers;
-        for (const std::uint32_t face : faces_[shell]) {
-            if (surface_.mesh.has_face(face)) {
-                samples_.for_each(face, [&](std::uint32_t number) { numbers.push_back(number); });
-                samples_.clear(face);
-                gone(face);
-                surface_.mesh.remove(face);
-            }
-        }
-        face_counts_[shell] = 0;
-        --count_left_;
-        move_samples(shell, numbers);
-    }
-
-private:
-    void move_samples(std::uint32_t shell, std::span<const std::uint32_t> numbers);
-    measure::NearestOnMesh nearest_other(std::uint32_t shell, const glm::dvec3& place, double max_distance) const;
-
-    WorkingSurface& surface_;
-    SurfaceSamples& samples_;
-    const OriginalSurface& original_;
-    double max_distance_;
-    std::vector<std::uint32_t> of_face_;            ///< For each triangle slot.
-    std::vector<std::vector<std::uint32_t>> faces_; ///< Of each shell at first.
-    std::vector<std::size_t> face_counts_;
-    std::size_t count_left_ = 0;
-    std::vector<std::uint32_t> of_original_; ///< For each triangle of the original.
-    /// For each triangle of the original a sample on it or near it.
-    std::vector<std::uint32_t> sample_near_;
-};
-
-/// The cost is estimated from about so many samples.
-constexpr std::size_t asked_samples = 48;
-
-constexpr double infinite = std::numeric_limits<double>::infinity();
-
-Shells::Shells(
-    CollapsingSurface& collapsing, SurfaceSamples& samples, const OriginalSurface& original, double max_distance)
-    : surface_(collapsing.surface()), samples_(samples), original_(original), max_distance_(max_distance),
-      of_face_(surface_.mesh.face_slots(), none), of_original_(original.size(), none) {
-    std::vector<std::uint32_t> waiting;
-    for (std::uint32_t triangle = 0; triangle < of_original_.size(); ++triangle) {
-        if (of_original_[triangle] != none) { continue; }
-        const auto shell = static_cast<std::uint32_t>(faces_.size());
-        faces_.emplace_back();
-        of_original_[triangle] = shell;
-        waiting.assign(1, triangle);
-        while (!waiting.empty()) {
-            const std::uint32_t here = waiting.back();
-            waiting.pop_back();
-            for (const std::uint32_t beyond : original.beyond(here)) {
-                if (beyond != none && of_original_[beyond] == none) {
-                    of_original_[beyond] = shell;
-                    waiting.push_back(beyond);
-                }
-            }
-        }
-    }
-    face_counts_.assign(faces_.size(), 0);
-    for (std::uint32_t face = 0; face < of_face_.size(); ++face) {
-        if (surface_.mesh.has_face(face)) {
-            of_face_[face] = of_original_[collapsing.face_numbers()[face]];
-            faces_[of_face_[face]].push_back(face);
-            ++face_counts_[of_face_[face]];
-        }
-    }
-    count_left_ = faces_.size() - static_cast<std::size_t>(std::ranges::count(face_counts_, 0U));
-    if (count_left_ < 2) { return; }
-    sample_near_.assign(of_original_.size(), none);
-    for (std::uint32_t sample = 0; sample < samples.size(); ++sample) {
-        const std::uint32_t triangle = samples[sample].triangle;
-        if (sample_near_[triangle] == none) {
-            sample_near_[triangle] = sample;
-            waiting.push_back(triangle);
-        }
-    }
-    for (std::size_t i = 0; i < waiting.size(); ++i) {
-        for (const std::uint32_t beyond : original.beyond(waiting[i])) {
-            if (beyond != none && sample_near_[beyond] == none) {
-                sample_near_[beyond] = sample_near_[waiting[i]];
-                waiting.push_back(beyond);
-            }
-        }
-    }
-}
-
-/// The nearest point of another shell of the original that was not dropped. There may be none where it is farther than
-/// `max_distance`.
-measure::NearestOnMesh Shells::nearest_other(std::uint32_t shell, const glm::dvec3& place, double max_distance) const {
-    measure::NearestOnMesh found;
-    for (double within = std::min(1e-3, max_distance); found.triangle == none && within < 4.0 * max_distance;
-         within *= 4.0) {
-        found.distance2 = within * within;
-        original_.for_each_near(place, within, [&](std::uint32_t triangle) {
-            const std::uint32_t other = of_original_[triangle];
-            if (other == shell || face_counts_[other] == 0) { return; }
-            const double distance2 = original_.distance2(triangle, place);
-            if (distance2 < found.distance2 || (distance2 == found.distance2 && triangle < found.triangle)) {
-                found.distance2 = distance2;
-                found.triangle = triangle;
-            }
-        });
-    }
-    return found;
-}
-
-double Shells::cost(std::uint32_t shell) const {
-    if (count_left_ < 2) { return infinite; }
-    std::size_t all = 0;
-    double present = 0.0;
-    for (const std::uint32_t face : faces_[shell]) {
-        if (surface_.mesh.has_face(face)) { all += samples_.count(face); }
-    }
-    const std::size_t stride = max_distance_ < max_shell_distance ? 1 : all / asked_samples + 1;
-    double weights = 0.0;
-    double asked_weights = 0.0;
-    double sum = 0.0;
-    bool is_far = all == 0; // Nothing is known of where it is.
-    std::size_t place = 0;
-    for (const std::uint32_t face : faces_[shell]) {
-        if (!surface_.mesh.has_face(face)) { continue; }
-        samples_.for_each(face, [&](std::uint32_t number) {
-            const SurfaceSample& sample = samples_[number];
-            weights += static_cast<double>(sample.weight);
-            present +=
-                static_cast<double>(sample.weight) * samples_.penalty().of(static_cast<double>(sample.distance2));
-            if (!is_far && place++ % stride == 0) {
-                const glm::dvec3 at(sample.place[0], sample.place[1], sample.place[2]);
-                const measure::NearestOnMesh other = nearest_other(shell, at, max_distance_);
-                is_far = other.triangle == none || other.distance2 > max_distance_ * max_distance_;
-                asked_weights += static_cast<double>(sample.weight);
-                sum += static_cast<double>(sample.weight) * samples_.penalty().of(other.distance2);
-            }
-        });
-    }
-    if (is_far) { return infinite; }
-    return asked_weights > 0.0 ? sum * weights / asked_weights - present : 0.0;
-}
-
-/// Puts the samples of a shell that was dropped into the lists of triangles of the others: from the nearest point of
-/// the original to a sample near it, and from the triangle of that to the nearest around.
-void Shells::move_samples(std::uint32_t shell, std::span<const std::uint32_t> numbers) {
-    for (const std::uint32_t number : numbers) {
-        const std::array<float, 3>& at = samples_[number].place;
-        // No two points are farther apart than the diagonal, which is 1, and each shell has samples.
-        const measure::NearestOnMesh other = nearest_other(shell, {at[0], at[1], at[2]}, 1.0);
-        assert(other.triangle != none && sample_near_[other.triangle] != none);
-        const std::uint32_t start = samples_[sample_near_[other.triangle]].face;
-        assert(surface_.mesh.has_face(start));
-        float distance2 = 0.0F;
-        const std::uint32_t face = nearest_face_from(surface_, start, at, distance2);
-        samples_.put(number, face, distance2);
-    }
-}
-
 /// Of collapses at the same cost, as in a plane, short edges go first: this share of an edge's squared length counts as
 /// a squared distance.
-constexpr double length_share2 = 1e-7;
+constexpr double min_length_share2 = 1e-7;
 
 /// An edge is first put into the heap with this share of its quadric, which mostly is less than its cost by samples:
 /// only what comes to the top is measured.
@@ -295,11 +105,13 @@ class EdgeCollapse {
 public:
     EdgeCollapse(CollapsingSurface& collapsing, LocalError* local, Shells* shells, const SimplifyOptions& options)
         : collapsing_(collapsing), surface_(collapsing.surface()), local_(local), shells_(shells),
-          length_share2_(std::max(local == nullptr ? options.length_share * options.length_share : 0.0, length_share2)),
-          costs_only_grow_(local == nullptr && length_share2_ == length_share2), show_progress_(options.show_progress),
-          changes_(allowed_changes(local, options)), edges_(static_cast<HalfEdge>(surface_.mesh.face_slots() * 3)),
+          length_share2_(
+              std::max(local == nullptr ? options.length_share * options.length_share : 0.0, min_length_share2)),
+          costs_only_grow_(local == nullptr && length_share2_ == min_length_share2),
+          show_progress_(options.show_progress), changes_(allowed_changes(local, options)),
+          edges_(static_cast<HalfEdge>(surface_.mesh.face_slots() * 3)),
           heap_(edges_ + (shells == nullptr ? 0 : shells->count())), known_(edges_, Known::Old),
-          first_(local == nullptr ? Known::There : Known::Old), has_refused_(surface_.mesh.vertex_slots(), 0) {
+          first_known_(local == nullptr ? Known::Forward : Known::Old), has_refused_(surface_.mesh.vertex_slots(), 0) {
         if (!collapsing.collapses().empty()) {
             error_ = collapsing.collapses().back().error_m / collapsing.units().diagonal_m;
         }
@@ -317,24 +129,24 @@ private:
         return local == nullptr ? TopologyChanges::Holes : TopologyChanges::HolesAndHandles;
     }
 
-    /// What is known of the cost of an edge.
+    /// How the cost of an edge was found.
     enum class Known : std::uint8_t {
         Old,     ///< A guess, or what was found before something changed nearby.
-        There,   ///< From the samples to the triangles.
-        BothWays ///< And back.
+        Forward, ///< From the samples to the triangles.
+        Both     ///< Also from the triangles to the original.
     };
 
     bool is_met(const Goal& goal) const;
     void fill();
     HalfEdge next_edge();
-    HalfEdge taking_one(HalfEdge h);
+    HalfEdge edge_for_last_triangle(HalfEdge h);
     bool is_allowed(HalfEdge h, const VertexPlacement& placement);
-    void update(HalfEdge edge, Known ways);
-    void measure(HalfEdge h, const VertexPlacement& placement, Known ways);
+    void update(HalfEdge edge, Known known);
+    void measure(HalfEdge h, const VertexPlacement& placement, Known known);
     void load(HalfEdge h, const VertexPlacement& placement);
     double length_cost(HalfEdge edge, const VertexPlacement& placement) const;
     void collapse(HalfEdge h);
-    void part(std::uint32_t vertex);
+    void separate_cut_vertex(std::uint32_t vertex);
     void update_around(std::uint32_t vertex);
     void update_shell(std::uint32_t shell);
     void drop(std::uint32_t shell);
@@ -355,13 +167,13 @@ private:
     HalfEdge edges_;          ///< Greater numbers in the heap are those of shells.
     EdgeHeap heap_;
     std::vector<Known> known_; ///< For each edge.
-    Known first_;              ///< What is found out about an edge at first.
+    Known first_known_;        ///< What is found out about an edge at first.
     /// For each vertex whether an edge at it was taken out of the heap, as it may not collapse.
     std::vector<std::uint8_t> has_refused_;
     HalfEdge measured_ = none; ///< The edge whose collapse local_ measured last; none = it changed.
-    Known measured_ways_ = Known::Old;
-    double there_ = 0.0; ///< The error that it measured, from the samples and back to the original.
-    double back_ = 0.0;
+    Known measured_known_ = Known::Old;
+    double forward_error_ = 0.0; ///< The error that it measured, from the samples and back to the original.
+    double backward_error_ = 0.0;
     double error_ = 0.0; ///< The estimated error so far, in working units.
     std::vector<RingFace> ring_;
     std::vector<std::uint32_t> faces_;
@@ -379,7 +191,7 @@ bool EdgeCollapse::is_met(const Goal& goal) const {
 void EdgeCollapse::fill() {
     const CollapsibleMesh& mesh = surface_.mesh;
     for (HalfEdge h = 0; h < mesh.face_slots() * 3; ++h) {
-        if (mesh.has_face(face_of(h)) && mesh.edge_of(h) == h && !heap_.holds(h)) { update(h, first_); }
+        if (mesh.has_face(face_of(h)) && mesh.edge_of(h) == h && !heap_.holds(h)) { update(h, first_known_); }
     }
 }
 
@@ -407,7 +219,7 @@ void EdgeCollapse::run(const Goal& goal) {
             }
         }
         if (goal.faces && surface_.mesh.face_count() == *goal.faces + 1) {
-            collapse(taking_one(h));
+            collapse(edge_for_last_triangle(h));
             continue;
         }
         collapse(h);
@@ -424,9 +236,9 @@ HalfEdge EdgeCollapse::next_edge() {
         const HalfEdge h = heap_.top();
         if (h >= edges_) { return h; }
         if (known_[h] == Known::Old) {
-            update(h, Known::There);
-        } else if (local_ != nullptr && known_[h] == Known::There) {
-            update(h, Known::BothWays);
+            update(h, Known::Forward);
+        } else if (local_ != nullptr && known_[h] == Known::Forward) {
+            update(h, Known::Both);
         } else if (local_ != nullptr || is_allowed(h, collapsing_.quadrics().placement(surface_, h))) {
             return h;
         } else {
@@ -440,7 +252,7 @@ HalfEdge EdgeCollapse::next_edge() {
 
 /// The edge to collapse where one triangle is to go: `h`, the cheapest edge, if it is on a boundary, else the cheapest
 /// boundary edge, unless that costs more than `max_factor` times as much as `h`.
-HalfEdge EdgeCollapse::taking_one(HalfEdge h) {
+HalfEdge EdgeCollapse::edge_for_last_triangle(HalfEdge h) {
     constexpr float max_factor = 100.0F; // Some ten times as far off there.
     const CollapsibleMesh& mesh = surface_.mesh;
     if (mesh.twin(h) == none) { return h; }
@@ -448,7 +260,7 @@ HalfEdge EdgeCollapse::taking_one(HalfEdge h) {
     HalfEdge best = none;
     for (HalfEdge side = 0; side < edges_; ++side) {
         if (mesh.has_face(face_of(side)) && mesh.twin(side) == none) {
-            update(side, local_ == nullptr ? Known::There : Known::BothWays);
+            update(side, local_ == nullptr ? Known::Forward : Known::Both);
             if (heap_.holds(side) && (best == none || heap_.cost(side) < heap_.cost(best)) &&
                 is_allowed(side, collapsing_.quadrics().placement(surface_, side))) {
                 best = side;
@@ -467,17 +279,18 @@ bool EdgeCollapse::is_allowed(HalfEdge h, const VertexPlacement& placement) {
 }
 
 /// Puts an edge into the heap with its present cost, or takes it out where it may not collapse.
-void EdgeCollapse::update(HalfEdge edge, Known ways) {
-    known_[edge] = ways;
+void EdgeCollapse::update(HalfEdge edge, Known known) {
+    known_[edge] = known;
     const VertexPlacement placement = collapsing_.quadrics().placement(surface_, edge);
     double cost = length_cost(edge, placement);
     if (local_ == nullptr) {
         cost += placement.cost;
-    } else if (ways == Known::Old) {
+    } else if (known == Known::Old) {
         cost += guessed_share * placement.cost;
     } else if (is_allowed(edge, placement)) {
-        measure(edge, placement, ways);
-        cost += ways == Known::There ? there_ - local_->current_forward_error() : there_ + back_ - local_->present();
+        measure(edge, placement, known);
+        cost += known == Known::Forward ? forward_error_ - local_->current_forward_error()
+                                        : forward_error_ + backward_error_ - local_->present();
         if (effect_.kind != CollapseEffect::Kind::ClosesHole &&
             (surface_.is_border_vertex(surface_.mesh.origin(edge)) ||
                 surface_.is_border_vertex(surface_.mesh.target(edge)))) {
@@ -495,16 +308,16 @@ void EdgeCollapse::update(HalfEdge edge, Known ways) {
 
 /// Measures what the collapse of an edge, whose ring must be in ring_, would leave. What was measured last stays valid
 /// until the mesh changes.
-void EdgeCollapse::measure(HalfEdge h, const VertexPlacement& placement, Known ways) {
+void EdgeCollapse::measure(HalfEdge h, const VertexPlacement& placement, Known known) {
     if (measured_ != h) {
         load(h, placement);
-        there_ = local_->forward_error();
+        forward_error_ = local_->forward_error();
         measured_ = h;
-        measured_ways_ = Known::There;
+        measured_known_ = Known::Forward;
     }
-    if (ways == Known::BothWays && measured_ways_ == Known::There) {
-        back_ = local_->backward_error();
-        measured_ways_ = Known::BothWays;
+    if (known == Known::Both && measured_known_ == Known::Forward) {
+        backward_error_ = local_->backward_error();
+        measured_known_ = Known::Both;
     }
 }
 
@@ -541,7 +354,7 @@ void EdgeCollapse::collapse(HalfEdge h) {
     }
     mesh.ring_of(h, ring_);
     if (local_ != nullptr) {
-        measure(h, placement, Known::BothWays);
+        measure(h, placement, Known::Both);
         measured_ = none;
         error_ = std::max(error_, std::sqrt(local_->max_distance2()));
     } else if (placement.weight > 0.0) {
@@ -570,7 +383,7 @@ void EdgeCollapse::collapse(HalfEdge h) {
         const std::uint32_t made = effect_.made;
         local_->copy_vertex(kept, gone);
         local_->copy_vertex(c, made);
-        for (const std::uint32_t vertex : {kept, gone, c, made}) { part(vertex); }
+        for (const std::uint32_t vertex : {kept, gone, c, made}) { separate_cut_vertex(vertex); }
         for (const std::uint32_t vertex : {gone, c, made}) { update_around(vertex); }
     }
     update_around(kept);
@@ -578,7 +391,7 @@ void EdgeCollapse::collapse(HalfEdge h) {
 
 /// Moves a vertex of a cut, where both sides lie at the same place, a little towards its neighbours, so that the sides
 /// do not touch.
-void EdgeCollapse::part(std::uint32_t vertex) {
+void EdgeCollapse::separate_cut_vertex(std::uint32_t vertex) {
     constexpr double share = 0.01;
     if (surface_.is_border_vertex(vertex)) { return; }
     surface_.mesh.ring_at(vertex, ring_, ring_faces_);
@@ -615,7 +428,7 @@ void EdgeCollapse::update_around(std::uint32_t vertex) {
         if (costs_only_grow_ && heap_.holds(edge)) {
             known_[edge] = Known::Old;
         } else {
-            update(edge, first_);
+            update(edge, first_known_);
         }
     });
 }
@@ -674,7 +487,8 @@ std::size_t collapse_by_samples(CollapsingSurface& collapsing, SurfaceSamples& s
     if (!options.keep_shells && !options.keep_topology) {
         // A shell that is dropped must keep a wanted error with what is left of it for other steps.
         const double error = options.goal.error_m.value_or(1e30) / collapsing.units().diagonal_m;
-        shells.emplace(collapsing, samples, original, std::min(max_shell_distance, options.shell_error_share * error));
+        shells.emplace(collapsing.surface(), collapsing.face_numbers(), samples, original,
+            std::min(max_shell_distance, options.shell_error_share * error));
     }
     EdgeCollapse collapse(collapsing, &local, shells && shells->count() > 1 ? &*shells : nullptr, options);
     collapse.run(goal);

@@ -54,6 +54,10 @@ struct ColouredTriangle {
 /// The two-sided error around a step: from the samples whose triangles change to the new triangles (forward), and from
 /// points of the new triangles to the original (backward). The vertex that a step moves or makes is corner 0 of each
 /// new triangle.
+///
+/// Calls for a step: gather() the triangles that change; set_ring() or set_triangles(); forward_error() and fit() for
+/// the vertex's position, move_corner() there; measured() for the error; if the step is made, keep() after the change
+/// of the mesh.
 class LocalError {
 public:
     LocalError(const WorkingSurface& surface, SurfaceSamples& samples, const OriginalSurface& original)

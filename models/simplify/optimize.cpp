@@ -17,6 +17,7 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -179,10 +180,7 @@ std::size_t Optimizer::run(const OptimizeOptions& options) {
     fill();
     std::size_t steps = 0;
     while (steps < options.max_steps && !queue_.empty()) {
-        if (steps % 64 == 0 && options.has_timed_out && options.has_timed_out()) { break; }
-        if (steps % 1024 == 0 && options.show_progress) {
-            options.show_progress(static_cast<double>(steps) / static_cast<double>(options.max_steps));
-        }
+        if (steps % 64 == 0 && options.deadline && std::chrono::steady_clock::now() > *options.deadline) { break; }
         try_step(queue_.top());
         // Steps among very many triangles or samples count several times.
         steps = std::max(steps + 1, static_cast<std::size_t>(local_.work_done() / work_of_step));
@@ -511,8 +509,8 @@ void Optimizer::load_collapse(HalfEdge h) {
 Optimizer::MadeVertex Optimizer::collapsed_vertex(HalfEdge h) {
     const CollapsibleMesh& mesh = surface_.mesh;
     MadeVertex made{glm::dvec3(0.0), glm::dvec3(0.0), std::numeric_limits<double>::infinity()};
-    if (!surface_.may_collapse(h) || surface_.is_border_vertex(mesh.origin(h)) ||
-        surface_.is_border_vertex(mesh.target(h))) {
+    if (surface_.effect_of(h, TopologyChanges::None).kind == CollapseEffect::Kind::NotAllowed ||
+        surface_.is_border_vertex(mesh.origin(h)) || surface_.is_border_vertex(mesh.target(h))) {
         return made;
     }
     load_collapse(h);

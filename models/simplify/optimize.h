@@ -4,17 +4,17 @@
 #include "models/simplify/surface_samples.h"
 #include "models/simplify/working_surface.h"
 
+#include <chrono>
 #include <cstddef>
-#include <functional>
+#include <optional>
 
 namespace octant::models::simplify {
 
 /// How much work an optimization may do.
 struct OptimizeOptions {
     std::size_t max_steps = 0;
-    /// Called repeatedly; true ends the optimization. May be empty.
-    std::function<bool()> has_timed_out;
-    std::function<void(double share)> show_progress; ///< May be empty.
+    /// The optimization ends at this time.
+    std::optional<std::chrono::steady_clock::time_point> deadline;
 };
 
 /// Lowers the two-sided error between a surface and samples of its original at a constant number of triangles:

@@ -65,6 +65,9 @@ glm::dvec3 ColourQuadric::colour_at(const glm::dvec3& p) const {
     return (sum + offset) / weight;
 }
 
+namespace {
+
+/// Adds the colours of one triangle to both quadrics.
 void add_colours(Quadric& quadric, ColourQuadric& colours, const std::array<glm::dvec3, 3>& corners,
     const std::array<glm::dvec3, 3>& corner_colours, double weight) {
     const glm::dvec3 ab = corners[1] - corners[0];
@@ -85,8 +88,6 @@ void add_colours(Quadric& quadric, ColourQuadric& colours, const std::array<glm:
     }
     colours.weight += weight;
 }
-
-namespace {
 
 /// The quadric of positions with the best colour at each position.
 Quadric without_colours(const Quadric& quadric, const ColourQuadric& colours) {

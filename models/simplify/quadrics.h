@@ -40,10 +40,6 @@ struct ColourQuadric {
     glm::dvec3 colour_at(const glm::dvec3& p) const;
 };
 
-/// Adds the colours of one triangle to both quadrics.
-void add_colours(Quadric& quadric, ColourQuadric& colours, const std::array<glm::dvec3, 3>& corners,
-    const std::array<glm::dvec3, 3>& corner_colours, double weight);
-
 /// The product of the 3 x 3 matrix and a vector.
 glm::dvec3 product(const Quadric& matrix, const glm::dvec3& vector);
 

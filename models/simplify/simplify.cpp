@@ -12,6 +12,7 @@
 #include "models/measure/triangle_bvh.h"
 #include "models/simplify/edge_collapse.h"
 #include "models/simplify/optimize.h"
+#include "sim/base/stopwatch.h"
 
 #include <glm/geometric.hpp>
 
@@ -19,7 +20,6 @@
 #include <cassert>
 #include <chrono>
 #include <cmath>
-#include <ctime>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -33,8 +33,6 @@ namespace {
 /// Collapses are chosen by samples where at most so many times the wanted triangles are left.
 constexpr std::size_t sampled_faces = 3;
 constexpr std::size_t min_sampled_faces = 2000;
-
-double cpu_s() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
 /// How many samples stand for a surface: some dozens for each triangle that is to be left.
 std::size_t wanted_samples(int effort, std::size_t original_faces, std::size_t faces_left) {
@@ -61,9 +59,7 @@ OptimizeOptions optimize_options(const SimplifyOptions& options, std::size_t fac
     if (options.effort_limits_each || (!options.steps && !options.deadline)) {
         how.max_steps = std::min(how.max_steps, steps_of(options.effort, faces, original));
     }
-    if (options.deadline) {
-        how.has_timed_out = [end = *options.deadline] { return std::chrono::steady_clock::now() > end; };
-    }
+    how.deadline = options.deadline;
     return how;
 }
 
@@ -244,7 +240,7 @@ private:
     static constexpr double first_try = 1.2;
 
     void search_from(double quadrics_m) {
-        const double start_s = cpu_s();
+        const double start_s = process_cpu_s();
         auto kept = std::make_unique<Simplification>(original_, collapsing_);
         kept->approach({{}, {}, quadrics_m}, original_.triangles.size() / 4);
         if (kept->collapses().size() > 1) {
@@ -252,7 +248,7 @@ private:
         }
         auto next = std::make_unique<Simplification>(*kept);
         next->collapse({{}, {}, first_try * error_m_});
-        result_.collapse_cpu_s += cpu_s() - start_s;
+        result_.collapse_cpu_s += process_cpu_s() - start_s;
         double kept_m = quadrics_m;
         std::size_t too_few = 0;
         double too_far_m = 0.0;
@@ -267,10 +263,10 @@ private:
             }
             const std::size_t wanted = next_faces(kept->faces(), kept_m, too_few, too_far_m);
             if (wanted >= kept->faces()) { break; }
-            const double before_s = cpu_s();
+            const double before_s = process_cpu_s();
             next = std::make_unique<Simplification>(*kept);
             next->collapse({{}, wanted, {}});
-            result_.collapse_cpu_s += cpu_s() - before_s;
+            result_.collapse_cpu_s += process_cpu_s() - before_s;
             if (next->faces() >= kept->faces()) {
                 break; // No edge can collapse.
             }
@@ -283,11 +279,11 @@ private:
     /// Finishes a copy of a state and takes it for the result if it keeps the error. Returns about how large its error
     /// is.
     double attempt(const Simplification& state) {
-        const double start_s = cpu_s();
+        const double start_s = process_cpu_s();
         Simplification copy(state);
         TriangleMesh mesh;
         const std::size_t steps = copy.optimize(trying_, mesh);
-        result_.optimize_cpu_s += cpu_s() - start_s;
+        result_.optimize_cpu_s += process_cpu_s() - start_s;
         result_.steps += steps;
         if (trying_.steps) { *trying_.steps -= std::min(*trying_.steps, steps); }
         const measure::MeshDistance distance = measure::distance(original_, mesh,
@@ -341,22 +337,22 @@ constexpr int max_unfolding_tries = 4;
 bool is_folded(const TriangleMesh& mesh, const TriangleMesh& original) {
     constexpr std::size_t samples = 20'000;
     const double rms_m = measure::sampled_distance(mesh, measure::TargetSurface(original), {.samples = samples}).rms_m;
-    return measure::flipped_area_share(mesh, original, {.reach_m = rms_m, .samples = samples}) > max_folded_share;
+    return measure::flipped_area_share(mesh, original, rms_m, {.samples = samples}) > max_folded_share;
 }
 
 /// Simplifies a mesh to a number of triangles or vertices, or as far as edges can collapse.
-Simplified to_count(const TriangleMesh& original, const SimplifyOptions& options) {
+Simplified simplify_to_count(const TriangleMesh& original, const SimplifyOptions& options) {
     Simplified result;
-    const double start_s = cpu_s();
+    const double start_s = process_cpu_s();
     Simplification work(original, options);
     const std::size_t faces = target_faces(options.goal);
     work.approach({{}, std::max(sampled_faces * faces, min_sampled_faces), {}}, faces);
     work.collapse(options.goal);
-    const double collapsed_s = cpu_s();
+    const double collapsed_s = process_cpu_s();
     work.tell(result);
     result.steps = work.optimize(options, result.mesh);
     result.collapse_cpu_s = collapsed_s - start_s;
-    result.optimize_cpu_s = cpu_s() - collapsed_s;
+    result.optimize_cpu_s = process_cpu_s() - collapsed_s;
     result.original_tree = result.steps > 0 ? work.original_tree() : nullptr;
     if (result.shells_removed == 0 && result.handles_cut == 0) {
         result.sequence.collapses = std::move(work.collapses());
@@ -372,7 +368,7 @@ Simplified simplified(const TriangleMesh& original, const SimplifyOptions& optio
                         (options.goal.vertices && original.vertices_m.size() <= *options.goal.vertices);
     if (original.triangles.empty() || is_met) { return {.mesh = original, .sequence = {original, {}}}; }
     if (options.goal.error_m) { return ErrorSearch(original, options).find(); }
-    Simplified result = to_count(original, options);
+    Simplified result = simplify_to_count(original, options);
     // Where no edge can collapse any more, the last collapses have mostly folded the surface.
     SimplifyOptions fewer = options;
     fewer.goal = {{}, result.mesh.triangles.size(), {}};
@@ -381,7 +377,7 @@ Simplified simplified(const TriangleMesh& original, const SimplifyOptions& optio
     for (int tries = 0; is_stuck && tries < max_unfolding_tries && is_folded(result.mesh, original); ++tries) {
         *fewer.goal.faces += *fewer.goal.faces / 4 + 2;
         if (*fewer.goal.faces >= original.triangles.size()) { break; }
-        result = to_count(original, fewer);
+        result = simplify_to_count(original, fewer);
     }
     return result;
 }

@@ -78,10 +78,10 @@ struct SurfaceSample {
     std::uint32_t triangle = none; ///< Of the original.
 };
 
-/// The penalty of a squared distance: the square itself, and more for distances far above the usual one. Minimizing its
-/// sum lowers both the mean and the largest distance.
+/// The penalty of a squared distance d2: d2 (1 + per_high2 d2), which is more than d2 for distances far above the usual
+/// one. Minimizing its sum lowers both the mean and the largest distance.
 struct Penalty {
-    /// 1 / the squared distance whose penalty is twice its square; 0 = plain squares.
+    /// 1 / the squared distance whose penalty is 2 d2; 0 = the penalty is d2.
     double per_high2 = 0.0;
 
     double of(double distance2) const { return distance2 * (1.0 + per_high2 * distance2); }

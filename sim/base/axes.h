@@ -15,8 +15,8 @@ using GroundHeight = std::function<std::optional<double>(double x_m, double y_m)
 // World: flat ground, x east, y north, z up, metres from the map centre at datum (EarthFrame).
 // Body:  x forward, y right, z down, metres from the aircraft's reference point.
 
-/// Attitude as pilots say it, radians. Heading clockwise from true north in [0, 2 pi), pitch nose up in [-pi/2, pi/2],
-/// roll right wing down in (-pi, pi].
+/// Attitude in radians. Heading clockwise from true north in [0, 2 pi), pitch nose up in [-pi/2, pi/2], roll right wing
+/// down in (-pi, pi].
 struct EulerAngles {
     double heading_rad = 0.0;
     double pitch_rad = 0.0;

@@ -62,7 +62,7 @@ public:
 
     std::size_t size() const { return bytes_.size(); }
 
-    /// The bytes; they are gone from here.
+    /// Moves the bytes out.
     std::string take() { return std::move(bytes_); }
 
 private:
@@ -88,7 +88,7 @@ public:
         return value_at<Value>(take_bytes(sizeof(Value), what).data(), order_);
     }
 
-    /// What put_list wrote. Nothing larger than the bytes is allocated.
+    /// A list that put_list wrote. Allocates no more than there are bytes left.
     template <class Value>
     std::vector<Value> take_list(const char* what = "a list") {
         std::vector<Value> list(take_count(sizeof(Value), what));
@@ -97,15 +97,15 @@ public:
         return list;
     }
 
-    /// What put_text wrote: a view of the bytes.
+    /// A text that put_text wrote, as a view of the bytes.
     std::string_view take_text(const char* what = "a text") { return take_bytes(take_count(1, what), what); }
 
-    /// The 64-bit number of things that take at least `min_bytes` each.
+    /// The 64-bit number of elements of at least `min_bytes` each. Throws Error if the bytes left are fewer.
     std::size_t take_count(std::size_t min_bytes, const char* what);
 
     std::string_view take_bytes(std::size_t count, const char* what);
 
-    /// For a condition on values that were taken: throws Error "... expected {what} before, got something else".
+    /// Throws Error "... expected {what} before, got something else" unless `good`, a condition on values read.
     void check(bool good, const char* what) const {
         if (!good) { refuse(fmt::format("{} before", what), "something else"); }
     }
@@ -144,7 +144,8 @@ void write_archive(const std::filesystem::path& file, const ArchiveKind& kind, s
 /// A reader at the body of an archive's bytes. Throws Error for another kind, version, size or checksum.
 BinaryReader archive_body(std::string_view bytes, const std::filesystem::path& file, const ArchiveKind& kind);
 
-/// What decode(BinaryReader&) makes of the body; it must take all of it. Throws Error as archive_body and `decode` do.
+/// The result of decode(BinaryReader&) for the body, which it must read to the end. Throws Error as archive_body and
+/// `decode` do.
 template <class Decode>
 auto read_archive(const std::filesystem::path& file, const ArchiveKind& kind, const Decode& decode) {
     const std::string bytes = read_file(file, kind.max_bytes);
@@ -154,16 +155,17 @@ auto read_archive(const std::filesystem::path& file, const ArchiveKind& kind, co
     return content;
 }
 
-/// A result that is kept in a file: an archive whose body begins with a key.
+/// A result that is cached in a file: an archive whose body begins with a key.
 struct CacheFile {
     std::string_view cache; ///< In notes: "order cache".
     std::filesystem::path file;
     ArchiveKind kind;
-    std::string_view key; ///< All that decides the result; compared whole.
+    std::string_view key; ///< everything that determines the result
 };
 
-/// What decode(BinaryReader&) makes of a cached result. Nothing if there is no file; nothing and a note "order cache
-/// FILE: at byte N: expected ..., got ...: computed anew" if the file is damaged, of another version or of another key.
+/// The result of decode(BinaryReader&) for a cached result. Nothing if there is no file; nothing and a note "order
+/// cache FILE: at byte N: expected ..., got ...: computed anew" if the file is damaged, of another version or of
+/// another key.
 template <class Decode>
 auto read_cache(const CacheFile& cache, const Decode& decode, std::vector<std::string>& notes) {
     std::optional<decltype(decode(std::declval<BinaryReader&>()))> result;

@@ -9,7 +9,7 @@
 
 namespace octant {
 
-/// The figure of a planet or moon, an ellipsoid of revolution: that of WGS 84 unless said.
+/// The figure of a planet or moon: an ellipsoid of revolution, by default that of WGS 84.
 struct Ellipsoid {
     double semi_major_m = 6378137.0;
     double flattening = 1.0 / 298.257223563;
@@ -19,11 +19,11 @@ struct Ellipsoid {
 
     constexpr double semi_minor_m() const { return semi_major_m * (1.0 - flattening); }
 
-    /// The radius by which ground curves: the mean of the three semi-axes, to a kilometre, which is 6,371 km for the
+    /// The radius of curvature of the ground: the mean of the three semi-axes, rounded to a kilometre; 6,371 km for the
     /// earth.
     double mean_radius_m() const;
 
-    /// Whether it is one of the earth's ellipsoids: within 1 % of its size.
+    /// True for an ellipsoid of the earth: within 1 % of its size.
     bool is_earth() const;
 
     bool operator==(const Ellipsoid&) const = default;
@@ -41,19 +41,19 @@ struct GeoPosition {
     Ellipsoid ellipsoid = {};
 };
 
-/// The ellipsoid below a ground; the earth's for made ground, which has no place.
+/// The ellipsoid of a ground; the earth's for generated ground, which has no position.
 inline Ellipsoid ellipsoid_below(const std::optional<GeoPosition>& place) { return place ? place->ellipsoid : wgs84; }
 
 /// Where a place is in a frame's axes.
 struct FramePosition {
     glm::dvec2 east_north_m{0.0};
-    /// The bearing of true north there, clockwise from the y axis: what is to be added to a heading from true north to
-    /// have one from the y axis.
+    /// The bearing of true north there, clockwise from the y axis. Added to a heading from true north, it gives the
+    /// heading from the y axis.
     double north_bearing_rad = 0.0;
 };
 
-/// How flat ground lies on the earth, or on the planet whose ellipsoid its origin names: where places are in its axes,
-/// x east and y north in metres. For one thread at a time.
+/// The map between positions on the earth, or on the planet of the origin's ellipsoid, and the axes of flat ground: x
+/// east and y north in metres. For one thread at a time.
 class EarthFrame {
 public:
     virtual ~EarthFrame() = default;
@@ -65,11 +65,11 @@ public:
     /// Where x and y are 0.
     virtual GeoPosition origin() const = 0;
 
-    /// The ellipsoid of `place` is not looked at: its latitude and longitude are taken as the frame's. Finite for every
-    /// place on the earth, and true up to 5,000 km from the origin.
+    /// Ignores the ellipsoid of `place`: latitude and longitude are those of the frame's ellipsoid. Finite for every
+    /// place on the earth, and exact up to 5,000 km from the origin.
     virtual glm::dvec2 local_from_geo(const GeoPosition& place) const = 0;
 
-    /// Undoes local_from_geo() there; always a place on its ellipsoid.
+    /// The inverse of local_from_geo() within that distance; always a position on the ellipsoid.
     virtual GeoPosition geo_from_local(const glm::dvec2& east_north_m) const = 0;
 
     FramePosition place_of(const GeoPosition& place) const;
@@ -79,8 +79,8 @@ protected:
 };
 
 /// The transverse Mercator projection of scale 1 that touches a place's ellipsoid along the place's meridian; x and y
-/// are 0 at the place. To 1e-6 m within 2,000 km of it, the poles included; lengths are drawn too long by d^2 / 2R^2 at
-/// a distance d from the meridian, 1.2e-5 of them at 31 km.
+/// are 0 at the place. Exact to 1e-6 m within 2,000 km of it, the poles included. Lengths at a distance d from the
+/// meridian are too long by the share d^2 / 2R^2, 1.2e-5 at 31 km.
 class TransverseMercator final : public EarthFrame {
 public:
     /// Coefficients of the sines of 2, 4, 6 and 8 times an angle.
@@ -105,7 +105,7 @@ private:
     double north_of_equator_m_ = 0.0;
 };
 
-/// The frame, or for none the one at 0 N, 0 E: where ground without a place is said to lie.
+/// The frame, or if it is null the one at 0 N, 0 E, where ground without a position is placed.
 const EarthFrame& frame_or_at_zero(const EarthFrame* frame);
 
 } // namespace octant

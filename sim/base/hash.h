@@ -8,15 +8,15 @@
 
 namespace octant {
 
-/// A number whose bits all depend on all bits of the given one: dice for a place in a lattice.
+/// Mixes the bits of a number: each bit of the result depends on all bits of `h`. A random number for a grid point.
 constexpr std::uint32_t scrambled(std::uint32_t h) {
     h = (h ^ (h >> 16U)) * 0x7feb352dU;
     h = (h ^ (h >> 15U)) * 0x846ca68bU;
     return h ^ (h >> 16U);
 }
 
-/// 64-bit running hash (FNV-1a taken over 8-byte words, a shorter end padded with zeros): fast enough for a picture a
-/// frame. Tells runs apart; not for secrets.
+/// 64-bit running hash (FNV-1a over 8-byte words, a shorter end padded with zeros): fast enough for one picture per
+/// frame. Not cryptographic.
 class Hash {
 public:
     void add(std::span<const std::byte> bytes) {
@@ -44,7 +44,7 @@ private:
     std::uint64_t value_ = 0xcbf29ce484222325ULL;
 };
 
-/// Of all bytes, as files keep it to tell whether they are whole.
+/// The hash of all bytes, which files store to detect damage.
 inline std::uint64_t checksum_of(std::span<const std::byte> bytes) {
     Hash hash;
     hash.add(bytes);

@@ -5,17 +5,17 @@
 
 namespace octant {
 
-/// A shared library that is opened when the first of its functions is called: a program that calls none starts without
-/// it and all that it depends on.
+/// A shared library that is opened when the first of its functions is called: a program that calls none loads neither
+/// the library nor its dependencies.
 class LazyLibrary {
 public:
     /// `file`: as the system's linker finds it, such as "libgdal.so.32".
     explicit constexpr LazyLibrary(const char* file) : file_(file) {}
 
-    /// Of a function. Throws Error where the library or the function is not to be had.
+    /// The address of a function. Throws Error if the library or the function is missing.
     void* address_of(const char* name);
 
-    /// The same of a function that may be missing, also one of a library below; null where it is.
+    /// The address of a function of the library or of its dependencies; null if there is none.
     void* find(const char* name);
 
 private:
@@ -24,8 +24,8 @@ private:
     void* handle_ = nullptr;
 };
 
-/// A function of such a library, called by its name like any other: where it is declared in a namespace, calls from
-/// there take it in place of the library's own.
+/// A function of such a library, called like any other. Calls from the namespace in which it is declared use it instead
+/// of the library's own declaration.
 template <class Function>
 class LazyFunction {
 public:

@@ -6,38 +6,38 @@
 
 namespace octant {
 
-// What the file system says of a name, without ever throwing: names that are too long, links in a circle and folders
-// that may not be searched are names of nothing.
+// Queries of the file system. None throws: a name that is too long, a circle of links or a folder without permission
+// counts as the name of nothing.
 
-/// Whether a file, folder or device of that name can be found, links followed.
+/// True if a file, folder or device has this name; links are followed.
 bool path_exists(const std::filesystem::path& path);
 
 bool is_folder(const std::filesystem::path& path);
 
-/// Whether it is a file of bytes: no folder, device or pipe.
+/// True for a regular file: no folder, device or pipe.
 bool is_file(const std::filesystem::path& path);
 
-/// Whether both names lead to the same file, be it there or still to be written. False where either is empty.
+/// True if both names lead to the same file, which need not exist. False if either is empty.
 bool is_same_file(const std::filesystem::path& a, const std::filesystem::path& b);
 
-/// The name from the root on, without "." and ".."; `path` itself where that cannot be told.
+/// The absolute path without "." and ".."; `path` itself if the current folder is unknown.
 std::filesystem::path absolute_path(const std::filesystem::path& path);
 
 /// Writes the whole file or nothing: into a temporary file in its folder, then renamed over `path`. Throws Error (no
 /// permission, no such folder, disk full) and leaves no temporary behind.
 void write_file(const std::filesystem::path& path, std::string_view bytes);
 
-/// Whether a file of that name is what a kill left of write_file.
+/// True for the name of a temporary file of write_file, which stays if the program is killed.
 bool is_unfinished(const std::filesystem::path& path);
 
-/// Before long work: throws Error where write_file would find no folder, none that it may write in, or a folder in the
-/// file's place. Writes nothing.
+/// For use before long work: throws Error if write_file would fail because the folder is missing or not writable, or
+/// because `path` is a folder. Writes nothing.
 void check_can_write(const std::filesystem::path& path);
 
-/// Makes the folder and its parents. Throws Error when that is not possible.
+/// Makes the folder and its parents. Throws Error if that is not possible.
 void make_folder(const std::filesystem::path& path);
 
-/// A file that grows line by line and survives a kill: what was flushed is in the kernel's hands.
+/// A file that grows line by line. What was flushed stays if the program is killed.
 class AppendedFile {
 public:
     /// Creates or empties the file. Throws Error.
@@ -48,10 +48,10 @@ public:
     AppendedFile(const AppendedFile&) = delete;
     AppendedFile& operator=(const AppendedFile&) = delete;
 
-    /// Keeps the text until the next flush.
+    /// Buffers the text until the next flush().
     void append(std::string_view text);
 
-    /// Hands everything appended to the kernel. Throws Error (disk full).
+    /// Writes everything appended. Throws Error (disk full).
     void flush();
 
 private:

@@ -13,8 +13,8 @@ namespace octant {
 /// Bytes of the UTF-8 character that `text` (not empty) starts with, 0 when it starts with none.
 std::size_t utf8_length(std::string_view text);
 
-/// A text from anywhere (file names among it) as one line that a terminal only shows: line ends and tabs become blanks;
-/// other control characters, and bytes that are no UTF-8, become '?'.
+/// A text of any origin, such as a file name, as one line that is safe to print on a terminal: line ends and tabs
+/// become blanks; other control characters, and bytes that are not UTF-8, become '?'.
 std::string one_line(std::string_view text);
 
 /// The whole file as bytes. Throws Error when it is missing, no regular file, unreadable or larger than
@@ -36,13 +36,13 @@ std::vector<std::string_view> split_words(std::string_view line);
 /// Fields separated by `separator`, blanks around them removed. Views into `line`.
 std::vector<std::string_view> split_fields(std::string_view line, char separator);
 
-/// What a file's name ends in from its last dot on, in small letters: ".obj"; empty without one.
+/// The extension of a file's name with its dot, in lower case: ".obj"; empty without one.
 std::string extension_of(const std::filesystem::path& path);
 
-/// The whole of `text` as a finite decimal number in the C locale; nothing for anything else (NaN and infinity too).
+/// The whole of `text` as a finite decimal number in the C locale; nothing for any other text, NaN and infinity too.
 std::optional<double> finite_number(std::string_view text);
 
-/// The whole of `text` as a decimal integer; nothing for anything else or out of range.
+/// The whole of `text` as a decimal integer; nothing for any other text or out of range.
 std::optional<long> whole_number(std::string_view text);
 
 } // namespace octant

@@ -14,7 +14,7 @@
 
 namespace octant {
 
-/// What separates the words of a text format besides blanks and line ends.
+/// How a text format separates words, in addition to blanks and line ends.
 struct TextRules {
     std::string_view separators = {}; ///< more characters that separate words
     std::string_view marks = {};      ///< characters that are words of their own, such as brackets

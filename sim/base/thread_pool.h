@@ -73,7 +73,7 @@ void parallel_for(std::size_t count, int threads, const Work& work) {
 /// Calls `work(row)` once for each row below `rows`, in any order, on all cores. Rows must not read what others write,
 /// so that the result is the same on any number of cores.
 template <typename Work>
-void by_rows(int rows, const Work& work) {
+void parallel_for_rows(int rows, const Work& work) {
     parallel_for(static_cast<std::size_t>(rows), core_count(),
         [&](std::size_t row, std::size_t) { work(static_cast<int>(row)); });
 }

@@ -13,19 +13,19 @@ CigiArticulatedParts::Pose CigiArticulatedParts::pose_at(const Part& part, doubl
         part.pose.offset_m + passed_s * part.per_s.offset_m, part.pose.angles_rad + passed_s * part.per_s.angles_rad};
 }
 
-void CigiArticulatedParts::take(const CigiArticulatedPart& told, double at_s) {
-    const std::pair key(told.entity, told.part);
-    if (!told.enabled) {
+void CigiArticulatedParts::take(const CigiArticulatedPart& received, double at_s) {
+    const std::pair key(received.entity, received.part);
+    if (!received.enabled) {
         parts_.erase(key);
         return;
     }
     if (parts_.size() == max_parts && !parts_.contains(key)) { return; }
     Part& part = parts_[key];
     part.pose = pose_at(part, at_s);
-    const glm::dvec3 told_rad(told.angles.roll_rad, told.angles.pitch_rad, told.angles.heading_rad);
+    const glm::dvec3 received_rad(received.angles.roll_rad, received.angles.pitch_rad, received.angles.heading_rad);
     for (int i = 0; i < 3; ++i) {
-        part.pose.offset_m[i] = told.moves[i] ? told.offset_m[i] : part.pose.offset_m[i];
-        part.pose.angles_rad[i] = told.sets[i] ? told_rad[i] : part.pose.angles_rad[i];
+        part.pose.offset_m[i] = received.moves[i] ? received.offset_m[i] : part.pose.offset_m[i];
+        part.pose.angles_rad[i] = received.sets[i] ? received_rad[i] : part.pose.angles_rad[i];
     }
     part.at_s = at_s;
 }
@@ -155,18 +155,18 @@ void CigiImageGenerator::take_view(const CigiViewControl& view) {
 }
 
 /// Sides that the packet does not set stay.
-void CigiImageGenerator::take_definition(const CigiViewDefinition& told) {
-    CigiViewDefinition definition = told;
-    if (const auto known = definitions_.find(told.view); known != definitions_.end()) {
+void CigiImageGenerator::take_definition(const CigiViewDefinition& received) {
+    CigiViewDefinition definition = received;
+    if (const auto known = definitions_.find(received.view); known != definitions_.end()) {
         const CigiViewDefinition& before = known->second;
-        definition.sets = glm::bvec4(told.sets.x || before.sets.x, told.sets.y || before.sets.y,
-            told.sets.z || before.sets.z, told.sets.w || before.sets.w);
-        definition.left_rad = told.sets.x ? told.left_rad : before.left_rad;
-        definition.right_rad = told.sets.y ? told.right_rad : before.right_rad;
-        definition.top_rad = told.sets.z ? told.top_rad : before.top_rad;
-        definition.bottom_rad = told.sets.w ? told.bottom_rad : before.bottom_rad;
+        definition.sets = glm::bvec4(received.sets.x || before.sets.x, received.sets.y || before.sets.y,
+            received.sets.z || before.sets.z, received.sets.w || before.sets.w);
+        definition.left_rad = received.sets.x ? received.left_rad : before.left_rad;
+        definition.right_rad = received.sets.y ? received.right_rad : before.right_rad;
+        definition.top_rad = received.sets.z ? received.top_rad : before.top_rad;
+        definition.bottom_rad = received.sets.w ? received.bottom_rad : before.bottom_rad;
     }
-    keep(definitions_, told.view, definition, max_views);
+    keep(definitions_, received.view, definition, max_views);
 }
 
 std::optional<std::uint16_t> CigiImageGenerator::type_of(std::uint16_t entity) const {

@@ -147,7 +147,7 @@ private:
     void take_entity(const CigiEntityControl& control);
     void take_rate(const CigiRateControl& rate, double arrival_s, std::vector<std::uint16_t>& touched);
     void take_view(const CigiViewControl& view);
-    void take_definition(const CigiViewDefinition& told);
+    void take_definition(const CigiViewDefinition& received);
     void ask(const CigiHeightRequest& request);
     void ask(const CigiLosRequest& request);
     void ask(const CigiPositionRequest& request);

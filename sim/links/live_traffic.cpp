@@ -51,7 +51,7 @@ void LiveTrack::clear() {
 AircraftState LiveTrack::beyond(double sender_s) const {
     const LiveSample& last = samples_.back();
     const double ahead_s = std::clamp(sender_s - last.state.time_s, 0.0, last.extrapolation_limit_s);
-    const double accelerated_s = std::min(ahead_s, last.accelerated_s);
+    const double accelerated_s = std::min(ahead_s, last.acceleration_limit_s);
     AircraftState state = last.state;
     state.velocity_mps += accelerated_s * last.world_mps2;
     state.position_m += ahead_s * state.velocity_mps - 0.5 * accelerated_s * accelerated_s * last.world_mps2;
@@ -207,8 +207,8 @@ TimingEvidence LiveVehicle::timing_evidence_of(const Fix& fix, const glm::dvec3&
         return runs ? clue : TimingEvidence{};
     }
     const glm::dvec3 distance_m = world_m - track_.last().state.position_m;
-    const bool told = fix.velocity_ned_mps && last_fix_->velocity_ned_mps;
-    if (told && velocity_error_ < max_velocity_error) {
+    const bool has_velocities = fix.velocity_ned_mps && last_fix_->velocity_ned_mps;
+    if (has_velocities && velocity_error_ < max_velocity_error) {
         const glm::dvec3 mean_ned_mps = 0.5 * (*fix.velocity_ned_mps + *last_fix_->velocity_ned_mps);
         clue.moved_s = time_along(distance_m, world_from_ned(mean_ned_mps));
     }
@@ -220,15 +220,15 @@ TimingEvidence LiveVehicle::timing_evidence_of(const Fix& fix, const glm::dvec3&
 bool LiveVehicle::trusts_velocity(const Fix& fix, const LiveSample& sample, double step_s) {
     if (fix.velocity_is_commanded || track_.empty() || step_s <= 0.0) { return true; }
     const glm::dvec3 moved_mps = (sample.state.position_m - track_.last().state.position_m) / step_s;
-    const glm::dvec3& told_mps = sample.state.velocity_mps;
-    const double max_mps = std::max(glm::length(moved_mps), glm::length(told_mps));
+    const glm::dvec3& reported_mps = sample.state.velocity_mps;
+    const double max_mps = std::max(glm::length(moved_mps), glm::length(reported_mps));
     if (max_mps > slow_to_judge_mps) {
         constexpr double share = 0.05;
-        const double error = glm::length(moved_mps - told_mps) / max_mps;
+        const double error = glm::length(moved_mps - reported_mps) / max_mps;
         velocity_error_ += share * (error - velocity_error_);
     }
-    const bool told = fix.velocity_ned_mps && (moves(told_mps) || !moves(moved_mps));
-    return told && velocity_error_ < max_velocity_error;
+    const bool is_reported = fix.velocity_ned_mps && (moves(reported_mps) || !moves(moved_mps));
+    return is_reported && velocity_error_ < max_velocity_error;
 }
 
 /// Sets velocity, turn rate and acceleration of a sample whose time, position and attitude are set: from the sender or
@@ -239,7 +239,7 @@ void LiveVehicle::set_motion(const Fix& fix, LiveSample& sample, double step_s) 
     sample.state.velocity_mps = world_from_ned(fix.velocity_ned_mps.value_or(glm::dvec3(0.0)));
     if (fix.extrapolation_limit_s > 0.0) {
         sample.extrapolation_limit_s = fix.extrapolation_limit_s;
-        sample.accelerated_s = fix.extrapolation_limit_s;
+        sample.acceleration_limit_s = fix.extrapolation_limit_s;
     } else {
         constexpr double periods = 5.0;
         constexpr double max_carried_on_s = 2.0;
@@ -288,8 +288,8 @@ bool LiveVehicle::has_jumped(const Fix& fix, const glm::dvec3& world_m, double a
     constexpr double more_m = 50.0;
     if (track_.empty()) { return false; }
     const AircraftState& last = track_.last().state;
-    const double told_mps = glm::length(fix.velocity_ned_mps.value_or(glm::dvec3(0.0)));
-    const double known_mps = std::max(told_mps, glm::length(last.velocity_mps));
+    const double reported_mps = glm::length(fix.velocity_ned_mps.value_or(glm::dvec3(0.0)));
+    const double known_mps = std::max(reported_mps, glm::length(last.velocity_mps));
     const double speed_mps = track_.samples().size() < min_samples ? std::max(known_mps, unknown_mps) : known_mps;
     const double passed_s = arrival_s - last_arrival_s_ + more_s;
     return glm::distance(world_m, last.position_m) > times_speed * speed_mps * passed_s + more_m;
@@ -452,12 +452,12 @@ void LiveTraffic::report(const VehicleKey& key, const Fix& fix, const std::strin
         if (reports_.size() >= max_reported) { return; }
         known = reports_.try_emplace(key).first;
     }
-    VehicleReport& told = known->second;
-    ++told.packets;
-    told.latitude_deg = fix.latitude_deg;
-    told.longitude_deg = fix.longitude_deg;
-    told.altitude_m = fix.altitude_m;
-    if (told.marking != marking) { told.marking = marking; }
+    VehicleReport& report = known->second;
+    ++report.packets;
+    report.latitude_deg = fix.latitude_deg;
+    report.longitude_deg = fix.longitude_deg;
+    report.altitude_m = fix.altitude_m;
+    if (report.marking != marking) { report.marking = marking; }
 }
 
 LiveTraffic::PacketOutcome LiveTraffic::move(const Datagram& datagram, const Fix& fix, const std::string& marking) {
@@ -513,7 +513,7 @@ void LiveTraffic::tally(const Datagram& datagram, const DecodeResult& result) {
     const auto of_sender = std::distance(begin, end);
     std::size_t& forms = error_keys_[result.fault];
     if (forms >= (of_sender == 0 ? max_first : max_in_all) || of_sender >= max_of_sender) {
-        ++counts_.untold;
+        ++counts_.unreported;
         return;
     }
     ++forms;
@@ -562,9 +562,9 @@ LiveTraffic::PacketOutcome LiveTraffic::take_line(const Datagram& datagram) {
     }
     Fix fix;
     const DecodeResult result = stream->value.take(datagram.bytes, fix);
-    DecodeResult said = result;
-    said.size = 0; // Lines differ in length and are told once.
-    const PacketOutcome counted = count(datagram, said);
+    DecodeResult kind = result;
+    kind.size = 0; // Lines differ in length and count as one kind.
+    const PacketOutcome counted = count(datagram, kind);
     return result.fault == PacketError::None ? move(datagram, fix) : counted;
 }
 
@@ -572,11 +572,11 @@ LiveTraffic::PacketOutcome LiveTraffic::take_mavlink(const Datagram& datagram) {
     PacketOutcome taken = PacketOutcome::Wrong;
     for (Bytes rest = datagram.bytes; !rest.empty();) {
         const MavLinkParse parse = parse_mavlink(rest);
-        DecodeResult said = parse.result;
-        said.size = said.fault == PacketError::NotOurs ? said.size : 0;
-        taken = std::max(taken, count(datagram, said));
-        if (identified(datagram, said).fault == PacketError::OtherKind) { break; }
-        if (said.fault == PacketError::None || said.fault == PacketError::Unused) {
+        DecodeResult kind = parse.result;
+        kind.size = kind.fault == PacketError::NotOurs ? kind.size : 0;
+        taken = std::max(taken, count(datagram, kind));
+        if (identified(datagram, kind).fault == PacketError::OtherKind) { break; }
+        if (kind.fault == PacketError::None || kind.fault == PacketError::Unused) {
             const unsigned component = unsigned{parse.system} << 8U | parse.component;
             number(datagram, static_cast<std::uint16_t>(component), parse.sequence, 8);
         }
@@ -624,7 +624,7 @@ LiveTraffic::PacketOutcome LiveTraffic::take_cigi(const Datagram& datagram) {
     std::vector<Fix> moved;
     DecodeResult result = cigi_.take(datagram.bytes, moved, datagram.arrival_s);
     if (result.fault == PacketError::None) {
-        result.size = 0; // Messages differ in length and are told once.
+        result.size = 0; // Messages differ in length and count as one kind.
     }
     const PacketOutcome counted = count(datagram, result);
     if (result.fault != PacketError::None) { return counted; }
@@ -722,9 +722,9 @@ std::vector<std::string> LiveTraffic::lines() const {
 std::vector<VehicleReport> LiveTraffic::vehicle_reports() const {
     std::vector<VehicleReport> all;
     all.reserve(reports_.size());
-    for (const auto& [key, told] : reports_) {
+    for (const auto& [key, counted] : reports_) {
         const auto known = numbers_.find(key);
-        VehicleReport& report = all.emplace_back(told);
+        VehicleReport& report = all.emplace_back(counted);
         report.name = name_of(key);
         report.protocol = key.protocol;
         report.source = key.source;

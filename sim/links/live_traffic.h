@@ -32,7 +32,7 @@ struct LiveSample {
     glm::dvec3 world_radps{0.0};        ///< turn rate in world axes
     glm::dvec3 world_mps2{0.0};         ///< acceleration
     double extrapolation_limit_s = 0.5; ///< longest time the motion may continue after this sample
-    double accelerated_s = 0.5;         ///< longest time it accelerates after this sample
+    double acceleration_limit_s = 0.5;  ///< longest time the acceleration continues after this sample
 };
 
 /// The motion of one vehicle from samples that come late, in bursts or not at all. Between samples it follows their
@@ -161,9 +161,9 @@ struct TrafficCounts {
     /// Lost packets by the sequence numbers of MAVLink and of CIGI hosts; nothing if no stream is numbered. The other
     /// protocols have no numbers.
     std::optional<long> lost;
-    long late = 0;   ///< dropped
-    long snaps = 0;  ///< corrections too large to be blended in
-    long untold = 0; ///< packets that packet_reports() leaves out because there are too many kinds
+    long late = 0;       ///< dropped
+    long snaps = 0;      ///< corrections too large to be blended in
+    long unreported = 0; ///< packets that packet_reports() leaves out because there are too many kinds
 };
 
 /// Summary of the packets of one vehicle, followed or not.

@@ -1,5 +1,6 @@
 #include "sim/links/named_columns.h"
 
+#include "sim/base/column_reader.h"
 #include "sim/base/text_file.h"
 #include "sim/base/units.h"
 
@@ -28,21 +29,17 @@ enum Quantity : std::size_t {
     Id
 };
 
-constexpr std::array<std::string_view, 14> names{"t_s", "lat_deg", "lon_deg", "north_m", "east_m", "alt_m", "agl_m",
-    "roll_deg", "pitch_deg", "yaw_deg", "v_north_mps", "v_east_mps", "v_up_mps", "id"};
+constexpr std::array<std::string_view, 14> quantity_names{"t_s", "lat_deg", "lon_deg", "north_m", "east_m", "alt_m",
+    "agl_m", "roll_deg", "pitch_deg", "yaw_deg", "v_north_mps", "v_east_mps", "v_up_mps", "id"};
 
 } // namespace
 
 DecodeResult NamedColumns::take_names(std::string_view line) {
     const auto size = static_cast<std::uint32_t>(line.size());
-    separator_ = line.find('\t') == std::string_view::npos ? ',' : '\t';
-    const std::vector<std::string_view> fields = split_fields(line, separator_);
-    fields_.fill(-1);
-    for (std::size_t i = 0; i < fields.size(); ++i) {
-        const auto known = std::ranges::find(names, fields[i]);
-        if (known != names.end()) { fields_[static_cast<std::size_t>(known - names.begin())] = static_cast<int>(i); }
-    }
-    count_ = fields.size();
+    separator_ = separator_of(line);
+    const std::vector<std::string_view> names = table_fields(line, separator_);
+    for (std::size_t i = 0; i < quantities; ++i) { fields_[i] = field_named(names, quantity_names[i]); }
+    count_ = names.size();
     const bool placed = (has(Latitude) && has(Longitude)) || (has(North) && has(East));
     named_ = placed && has(Altitude);
     return {named_ ? PacketError::Unused : PacketError::NotOurs, static_cast<std::uint32_t>(count_), size};
@@ -72,16 +69,16 @@ DecodeResult NamedColumns::take(Bytes line, Fix& fix) {
     const auto size = static_cast<std::uint32_t>(line.size());
     if (line.size() > longest_line) { return {PacketError::WrongSize, size, size}; }
     const std::string text(reinterpret_cast<const char*>(line.data()), line.size()); // NOLINT
-    const auto fields = split_fields(text, separator_);
+    const auto fields = table_fields(text, separator_);
     if (!named_ || fields.empty() || !finite_number(fields.front())) { return take_names(text); }
     if (fields.size() != count_) {
         return {PacketError::WrongVersion, static_cast<std::uint32_t>(fields.size()), size};
     }
     std::array<double, quantities> values{};
-    for (std::size_t quantity = 0; quantity < names.size(); ++quantity) {
+    for (std::size_t quantity = 0; quantity < quantities; ++quantity) {
         if (!has(quantity)) { continue; }
-        const auto value = finite_number(fields[static_cast<std::size_t>(fields_[quantity])]);
-        if (!value) { return {PacketError::NotFinite, static_cast<std::uint32_t>(fields_[quantity] + 1), size}; }
+        const auto value = finite_number(fields[*fields_[quantity]]);
+        if (!value) { return {PacketError::NotFinite, static_cast<std::uint32_t>(*fields_[quantity] + 1), size}; }
         values[quantity] = *value;
     }
     fix = fix_of(values);

@@ -33,6 +33,31 @@ constexpr std::array<Beginning, 17> beginnings{
             PacketKind::Acmi},
         {"XtraLib.Stream", PacketKind::Acmi}}};
 
+struct KindText {
+    PacketKind kind;
+    std::optional<Protocol> protocol; ///< the one that reads such packets
+    std::string_view text;            ///< what they are, and what to do
+};
+
+constexpr std::array<KindText, 12> kind_texts{{
+    {PacketKind::Fdm, Protocol::Fdm, "this is FlightGear FDM; --ports fdm [5550] says where it is read"},
+    {PacketKind::SwappedFdm, {},
+        "this is FlightGear FDM in little-endian byte order, which is not supported: FGNetFDM is big-endian (network "
+        "order), so its sender has to swap the bytes of each number"},
+    {PacketKind::Cigi3, Protocol::Cigi, "this is a CIGI 3 host; --ports cigi [8004] says where it is read"},
+    {PacketKind::OlderCigi, {}, "this is a host of CIGI 1 or 2, which is not supported: set it to CIGI 3.3"},
+    {PacketKind::Cigi4, {}, "this is a CIGI 4 host, which is not supported: set it to CIGI 3.3"},
+    {PacketKind::MavLink, Protocol::MavLink, "this is MAVLink; --ports mavlink [14550] says where it is read"},
+    {PacketKind::Dis, Protocol::Dis, "this is DIS; --ports dis [3000] says where it is read"},
+    {PacketKind::XPlane, Protocol::XPlane,
+        "this is X-Plane DATA or RREF; --ports xplane [49003] says where it is read"},
+    {PacketKind::OtherXPlane, {}, "this is an X-Plane message other than DATA and RREF, which is not supported"},
+    {PacketKind::ForeFlight, {},
+        "this is position output for tablets (XGPS, XATT), which is not supported: X-Plane sends DATA, too"},
+    {PacketKind::Nmea, {}, "this is NMEA 0183, which is not supported: --ports lines takes lines of numbers"},
+    {PacketKind::Acmi, {}, "this is Tacview text, which is not read live: octant fly FILE.acmi flies it"},
+}};
+
 bool begins(Bytes bytes, std::string_view text) {
     return bytes.size() >= text.size() && std::equal(text.begin(), text.end(), bytes.begin(),
                                               [](char a, std::byte b) { return static_cast<std::byte>(a) == b; });
@@ -111,53 +136,9 @@ std::optional<PacketKind> packet_kind(Bytes datagram) {
 }
 
 std::optional<Protocol> protocol_of(PacketKind kind) {
-    switch (kind) {
-    case PacketKind::Fdm:
-        return Protocol::Fdm;
-    case PacketKind::Cigi3:
-        return Protocol::Cigi;
-    case PacketKind::MavLink:
-        return Protocol::MavLink;
-    case PacketKind::Dis:
-        return Protocol::Dis;
-    case PacketKind::XPlane:
-        return Protocol::XPlane;
-    default:
-        return std::nullopt;
-    }
+    return std::ranges::find(kind_texts, kind, &KindText::kind)->protocol;
 }
 
-std::string_view text_of(PacketKind kind) {
-    switch (kind) {
-    case PacketKind::Fdm:
-        return "this is FlightGear FDM; --ports fdm [5550] says where it is read";
-    case PacketKind::SwappedFdm:
-        return "this is FlightGear FDM in little-endian byte order, which is not supported: "
-               "FGNetFDM "
-               "is big-endian (network order), so its sender has to swap the bytes of each number";
-    case PacketKind::Cigi3:
-        return "this is a CIGI 3 host; --ports cigi [8004] says where it is read";
-    case PacketKind::OlderCigi:
-        return "this is a host of CIGI 1 or 2, which is not supported: set it to CIGI 3.3";
-    case PacketKind::Cigi4:
-        return "this is a CIGI 4 host, which is not supported: set it to CIGI 3.3";
-    case PacketKind::MavLink:
-        return "this is MAVLink; --ports mavlink [14550] says where it is read";
-    case PacketKind::Dis:
-        return "this is DIS; --ports dis [3000] says where it is read";
-    case PacketKind::XPlane:
-        return "this is X-Plane DATA or RREF; --ports xplane [49003] says where it is read";
-    case PacketKind::OtherXPlane:
-        return "this is an X-Plane message other than DATA and RREF, which is not supported";
-    case PacketKind::ForeFlight:
-        return "this is position output for tablets (XGPS, XATT), which is not supported: X-Plane "
-               "sends DATA, too";
-    case PacketKind::Nmea:
-        return "this is NMEA 0183, which is not supported: --ports lines takes lines of numbers";
-    case PacketKind::Acmi:
-        return "this is Tacview text, which is not read live: octant fly FILE.acmi flies it";
-    }
-    return {};
-}
+std::string_view text_of(PacketKind kind) { return std::ranges::find(kind_texts, kind, &KindText::kind)->text; }
 
 } // namespace octant::sim::links

@@ -232,7 +232,7 @@ SenderClock::Step SenderClock::step_by_arrivals(double arrival_s) {
 /// Time at the sender since the last packet, from the best source.
 SenderClock::Step SenderClock::step_of(double arrival_s, const TimingEvidence& clue) {
     const std::optional<double> ticked = clue.ticks ? step_by_ticks(arrival_s, clue) : std::nullopt;
-    const auto told = [](TimeSource source, double passed_s) {
+    const auto reported = [](TimeSource source, double passed_s) {
         const double step_s = std::abs(passed_s) < min_step_s ? 0.0 : passed_s;
         return Step{source, step_s, step_s};
     };
@@ -244,9 +244,9 @@ SenderClock::Step SenderClock::step_of(double arrival_s, const TimingEvidence& c
     distance_shift_s_.reset();
     if (!sent && !ticked && !by_speed) { return step_by_arrivals(arrival_s); }
     arrival_shift_s_.reset();
-    return sent     ? told(TimeSource::SentTime, *clue.sent_s - last_sent_s_)
-           : ticked ? told(TimeSource::Ticks, *ticked)
-                    : told(TimeSource::ReportedSpeed, *clue.moved_s);
+    return sent     ? reported(TimeSource::SentTime, *clue.sent_s - last_sent_s_)
+           : ticked ? reported(TimeSource::Ticks, *ticked)
+                    : reported(TimeSource::ReportedSpeed, *clue.moved_s);
 }
 
 /// Follows the smallest delay of the last seconds: downwards quickly, upwards slowly.

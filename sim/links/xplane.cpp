@@ -176,7 +176,7 @@ DecodeResult XPlanePose::take(Bytes datagram, std::optional<Fix>& fix) {
             is_asked_for = take_answer(row.at<std::int32_t>(0), row.at<float>(4)) || is_asked_for;
         }
     }
-    DecodeResult result{PacketError::None, is_data ? 0U : 1U, 0}; // packets differ in length and are told once
+    DecodeResult result{PacketError::None, is_data ? 0U : 1U, 0}; // packets differ in length and count as one kind
     if (!received_.place || (!is_data && !is_complete(received_.place))) {
         result.fault = PacketError::Unused; // Answers to RREF may bring the rest of a place later.
         result.got = is_asked_for ? part_of_answers : result.got;
@@ -233,16 +233,17 @@ void XPlanePose::smooth(Fix& fix) {
     constexpr double farthest_m = 20.0; // of the place from where the local axes bring it
     constexpr double share = 0.05;
     constexpr double highest_latitude_deg = 89.0;
-    const glm::dvec3 told(fix.latitude_deg, fix.longitude_deg, fix.altitude_m);
-    glm::dvec3 place = told;
-    if (received_.local_m && last_local_m_ && std::abs(told.x) < highest_latitude_deg) {
+    const glm::dvec3 reported(fix.latitude_deg, fix.longitude_deg, fix.altitude_m);
+    glm::dvec3 place = reported;
+    if (received_.local_m && last_local_m_ && std::abs(reported.x) < highest_latitude_deg) {
         place = smooth_;
         move_by(place, *received_.local_m - *last_local_m_);
-        const glm::dvec3 left = told - place;
+        const glm::dvec3 left = reported - place;
         constexpr double m_per_degree = 111195.0;
-        const glm::dvec3 left_m(m_per_degree * left.x, m_per_degree * left.y * std::cos(rad_from_deg(told.x)), left.z);
+        const glm::dvec3 left_m(
+            m_per_degree * left.x, m_per_degree * left.y * std::cos(rad_from_deg(reported.x)), left.z);
         const bool has_jumped = !(glm::length(left_m) < farthest_m);
-        place = has_jumped ? told : place + share * left;
+        place = has_jumped ? reported : place + share * left;
     }
     last_local_m_ = received_.local_m;
     smooth_ = place;
@@ -304,8 +305,7 @@ std::string xplane_text(const DecodeResult& result) {
         return fmt::format("X-Plane {}: fine", kind);
     case PacketError::Unused:
         return result.got == 0 ? "X-Plane DATA without group 20 (latitude and longitude): waits for that one; "
-                                 "groups "
-                                 "3, 17, 18, 20 and 21 are read"
+                                 "groups 3, 17, 18, 20 and 21 are read"
                : result.got == part_of_answers
                    ? "X-Plane RREF: a part of the answers; waits for latitude, longitude and "
                      "elevation"

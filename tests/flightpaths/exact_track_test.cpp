@@ -120,10 +120,10 @@ TEST_CASE("quaternions that are not unit or not whole are refused with their lin
     CHECK(track_fault(replaced(good, "0,0,0,0,1,0,0,0\n", "0,0,0,0,1e200,1e200,0,0\n")) ==
           "2: expected a unit quaternion q_w, q_x, q_y, q_z, got one of length inf");
     CHECK(track_fault(replaced(good, "0,0,0,0,1,0,0,0\n", "0,0,0,0,1,x,0,0\n")) ==
-          "2: expected a finite number in column q_x, got \"x\"");
+          "2: expected a finite number in column q_x, got 'x'");
     CHECK(
         track_fault(replaced(good, "q_y,", "p_y,")) == "1: expected all of the columns q_w, q_x, q_y, q_z, got no q_y");
     CHECK(track_fault("t_s,north_m,east_m,alt_m,q_z\n0,0,0,0,1\n") ==
           "1: expected all of the columns q_w, q_x, q_y, q_z, got no q_w");
-    CHECK(track_fault(replaced(good, "q_z", "q_w")) == "1: expected one column q_w, got two");
+    CHECK(track_fault(replaced(good, "q_z", "q_w")) == "1: expected column q_w once, got it twice");
 }

@@ -1,5 +1,5 @@
+#include "flightpaths/log_columns.h"
 #include "flightpaths/recorded_track.h"
-#include "flightpaths/track_table.h"
 #include "sim/base/axes.h"
 #include "sim/base/units.h"
 #include "tests/flightpaths/track_fault.h"
@@ -127,7 +127,7 @@ TEST_CASE("columns of ours and of JSBSim are found in capitals, below comments a
 
 TEST_CASE("what no log of a flight may hold is refused with its line") {
     const std::string head = "time,lat,lon,alt_m\n";
-    CHECK(track_fault(head + "0,47,8,500\n1,x,8,500\n") == "3: expected a finite number in column lat, got \"x\"");
+    CHECK(track_fault(head + "0,47,8,500\n1,x,8,500\n") == "3: expected a finite number in column lat, got 'x'");
     CHECK(track_fault(head + "0,47,8,500\nnoon,47,8,500\n") ==
           "3: expected a time such as 12.5, 07:41:03 or 2024-01-02T07:41:03Z in column time, got "
           "\"noon\"");

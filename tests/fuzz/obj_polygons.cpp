@@ -1,11 +1,9 @@
 #include "tests/fuzz/obj_polygons.h"
 
 #include "sim/base/error.h"
-#include "sim/base/format_once.h"
 #include "sim/base/text_file.h"
 
 #include <fmt/format.h>
-#include <iterator>
 #include <map>
 #include <string_view>
 #include <utility>
@@ -70,8 +68,8 @@ std::string text_of(const ObjPolygons& model, const std::string& comment) {
         faces += 'f';
         for (const std::size_t vertex : polygon) {
             const auto [at, added] = number.try_emplace(vertex, number.size() + 1);
-            if (added) { fmt::format_to(std::back_inserter(text), "v {}\n", model.vertices[vertex]); }
-            fmt::format_to(std::back_inserter(faces), " {}", at->second);
+            if (added) { text += fmt::format("v {}\n", model.vertices[vertex]); }
+            faces += fmt::format(" {}", at->second);
         }
         faces += '\n';
     }

@@ -1,5 +1,6 @@
 #include "sim/base/axes.h"
 #include "sim/base/binary_file.h"
+#include "sim/base/column_reader.h"
 #include "sim/base/error.h"
 #include "sim/base/hash.h"
 #include "sim/base/output_file.h"
@@ -275,4 +276,35 @@ TEST_CASE("a text that comes in pieces has the same words and lines as a text in
     TextScanner binary = TextScanner::of_file(path);
     CHECK(binary.next_line());
     CHECK_THROWS_WITH(binary.next_line(), path.string() + ": expected text, got binary data");
+}
+
+TEST_CASE("tables are read by the names of their columns, and damage is named by line") {
+    const std::string text = "# feet, degrees\n\nName;Height;other\r\n\"a;b\"; 1.5 ;x\n# comment\nc;2;;\nd;e;f\ng;3\n";
+    ColumnReader table(TextScanner("t.csv", text));
+    REQUIRE(table.next_row());
+    CHECK(table.comment() == "# feet, degrees");
+    constexpr std::array<TableColumn, 3> columns{{{"name", true}, {"height", true}, {"speed"}}};
+    table.find(columns);
+    CHECK_FALSE(table.has(2));
+    REQUIRE(table.next_row());
+    CHECK(table.text(0) == "a;b");
+    CHECK(table.number(1) == 1.5);
+    REQUIRE(table.next_row());
+    table.check_field_count(); // one more field, which is empty
+    CHECK(table.line_number() == 6);
+    REQUIRE(table.next_row());
+    CHECK_THROWS_WITH(table.number(1), "t.csv:7: expected a finite number in column height, got 'e'");
+    REQUIRE(table.next_row());
+    CHECK_THROWS_WITH(table.check_field_count(), "t.csv:8: expected 3 fields, got 2");
+    CHECK_FALSE(table.next_row());
+}
+
+TEST_CASE("a table without a required column, or with one twice, is refused") {
+    constexpr std::array<TableColumn, 1> columns{{{"a", true}}};
+    ColumnReader without(TextScanner("t.csv", "b,c\n"));
+    REQUIRE(without.next_row());
+    CHECK_THROWS_WITH(without.find(columns), "t.csv:1: expected a column a, got 'b,c'");
+    ColumnReader twice(TextScanner("t.csv", "a,A\n"));
+    REQUIRE(twice.next_row());
+    CHECK_THROWS_WITH(twice.find(columns), "t.csv:1: expected column a once, got it twice");
 }

@@ -3,10 +3,10 @@
 #include "models/polygons/polygon_model.h"
 #include "sim/base/error.h"
 #include "sim/base/output_file.h"
+#include "sim/base/stopwatch.h"
 #include "ui/base/data_files.h"
 #include "ui/base/json_value.h"
 #include "ui/base/progress.h"
-#include "ui/base/stopwatch.h"
 #include "ui/command_line/command_line.h"
 #include "ui/command_line/setting_option.h"
 #include "ui/commands/commands.h"
@@ -60,7 +60,7 @@ public:
     }
 
 private:
-    base::Stopwatch watch_;
+    Stopwatch watch_;
     base::Progress progress_;
 };
 

@@ -202,7 +202,7 @@ base::JsonValue::JsonMembers results_of_run(const sim::links::LiveTraffic& traff
             {"refused", form.is_wrong}});
     }
     return {{"vehicles", std::move(vehicles)}, {"packets", std::move(packets)},
-        {"packets_untold", traffic.counts().untold}};
+        {"packets_untold", traffic.counts().unreported}};
 }
 
 /// A flight from outside, picture after picture, at the rate of the settings by the clock.
@@ -299,8 +299,9 @@ void listen_without_window(const ListenOptions& options) {
                 fmt::format("note: {} packets from {}: {}", form.packets, sim::links::text_of(form.source), form.text));
         }
     }
-    if (const long untold = run.traffic().counts().untold; untold > 0) {
-        base::print_note(options.quiet, fmt::format("note: {} packets more, of too many kinds to tell each", untold));
+    if (const long unreported = run.traffic().counts().unreported; unreported > 0) {
+        base::print_note(
+            options.quiet, fmt::format("note: {} packets more, of too many kinds to tell each", unreported));
     }
     flight::print_result(end, std::nullopt, options.json, results_of_run(run.traffic()));
     if (!end.fault.empty()) { throw Error(end.fault); }

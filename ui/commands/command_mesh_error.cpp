@@ -1,10 +1,10 @@
 #include "models/measure/mesh_defects.h"
 #include "models/measure/mesh_distance.h"
 #include "sim/base/error.h"
+#include "sim/base/stopwatch.h"
 #include "sim/base/thread_pool.h"
 #include "ui/base/json_value.h"
 #include "ui/base/progress.h"
-#include "ui/base/stopwatch.h"
 #include "ui/command_line/setting_option.h"
 #include "ui/commands/commands.h"
 #include "ui/world/mesh_loader.h"
@@ -51,7 +51,7 @@ models::TriangleMesh read_surface(const std::string& path) {
 
 MeshComparison measure_meshes(
     const models::TriangleMesh& a, const models::TriangleMesh& b, const MeshErrorOptions& options) {
-    const base::Stopwatch watch;
+    const Stopwatch watch;
     measure::DistanceOptions wanted;
     wanted.tightness = options.tightness;
     wanted.samples = static_cast<std::size_t>(options.samples);
@@ -62,10 +62,7 @@ MeshComparison measure_meshes(
     found.distance = measure::distance(a, b, wanted);
     progress.finish();
     found.defects = measure::defects(b);
-    measure::FlippedAreaOptions flipped;
-    flipped.reach_m = found.distance.rms_m();
-    flipped.threads = options.threads;
-    found.flipped_area_share = measure::flipped_area_share(b, a, flipped);
+    found.flipped_area_share = measure::flipped_area_share(b, a, found.distance.rms_m(), {.threads = options.threads});
     found.diagonal_m = models::diagonal_m(a);
     found.coloured = !a.colours.empty() && !b.colours.empty();
     found.measure_ms = watch.ms();
@@ -91,8 +88,8 @@ JsonValue distance_results(const measure::OneWayDistance& way, const MeshCompari
 }
 
 measure::OneWayDistance two_sided_distance(const measure::MeshDistance& distance) {
-    return {distance.min_hausdorff_m(), distance.max_hausdorff_m(), distance.rms_m(), distance.mean_m(),
-        distance.colour_rms()};
+    return {{distance.min_hausdorff_m(), distance.max_hausdorff_m()},
+        {distance.rms_m(), distance.mean_m(), distance.colour_rms()}};
 }
 
 JsonValue defect_results(const measure::MeshDefects& defects) {
@@ -151,7 +148,7 @@ void print_text(const MeshComparison& found) {
 }
 
 void mesh_error(const MeshErrorOptions& options) {
-    const base::Stopwatch watch;
+    const Stopwatch watch;
     const models::TriangleMesh a = read_surface(options.a);
     const models::TriangleMesh b = read_surface(options.b);
     const double read_ms = watch.ms();

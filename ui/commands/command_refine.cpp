@@ -1,11 +1,11 @@
 #include "models/meshfile/mesh_file.h"
 #include "sim/base/error.h"
 #include "sim/base/output_file.h"
+#include "sim/base/stopwatch.h"
 #include "sim/base/text_file.h"
 #include "sim/base/units.h"
 #include "ui/base/json_value.h"
 #include "ui/base/progress.h"
-#include "ui/base/stopwatch.h"
 #include "ui/command_line/setting_option.h"
 #include "ui/commands/commands.h"
 #include "ui/world/mesh_loader.h"
@@ -132,7 +132,7 @@ void write_results(const refine::SelectiveRefiner& refiner, const RefineOptions&
 /// Splits what is asked for; adds to the figures.
 void refine_all(refine::SelectiveRefiner& refiner, const RefineOptions& options,
     const std::optional<refine::RefineView>& view, JsonValue& results) {
-    const base::Stopwatch watch;
+    const Stopwatch watch;
     refine::refine_regions(refiner, options.regions);
     if (view) { refine::refine_for_view(refiner, *view, options.error_px); }
     const refine::RefinerCounts& counts = refiner.counts();
@@ -174,7 +174,7 @@ void refine_mesh(RefineOptions options) {
     for (const std::string& file : {options.save, options.out, options.partition, options.nodes}) {
         if (!file.empty()) { check_can_write(file); }
     }
-    const base::Stopwatch watch;
+    const Stopwatch watch;
     const world::RefineMesh input = world::load_refine_mesh(options.input);
     const auto& mesh = input.mesh;
     JsonValue results;

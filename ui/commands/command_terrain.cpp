@@ -5,11 +5,11 @@
 #include "models/procedural/procedural_terrain.h"
 #include "sim/base/error.h"
 #include "sim/base/output_file.h"
+#include "sim/base/stopwatch.h"
 #include "sim/base/text_file.h"
 #include "sim/base/units.h"
 #include "ui/base/json_value.h"
 #include "ui/base/progress.h"
-#include "ui/base/stopwatch.h"
 #include "ui/command_line/setting_option.h"
 #include "ui/commands/commands.h"
 #include "ui/report/png_file.h"
@@ -158,8 +158,8 @@ private:
     bool quiet_;
     std::optional<ImportStage> stage_;
     std::optional<base::Progress> progress_;
-    base::Stopwatch lap_;
-    base::Stopwatch since_save_;
+    Stopwatch lap_;
+    Stopwatch since_save_;
     std::array<double, stage_count> seconds_{};
 };
 
@@ -205,7 +205,7 @@ void import(const ImportCommand& command) {
     options.source_options = command.files;
     options.threads = command.threads;
     StageProgress watch(command.quiet);
-    const base::Stopwatch whole;
+    const Stopwatch whole;
     const auto summary = visuals::groundfile::import_ground(
         models::heights::map_inputs(command.inputs), command.out, options, std::ref(watch));
     const double whole_s = whole.s();
@@ -227,7 +227,7 @@ void import(const ImportCommand& command) {
 /// Prints the properties of an imported ground file; `verify` checks the whole file first. Throws Error for a damaged
 /// file.
 void show_ground_file(const std::string& file, bool verify, bool json) {
-    const base::Stopwatch opening;
+    const Stopwatch opening;
     const visuals::terrain::GroundTiles ground = visuals::groundfile::open_ground(file);
     const double open_ms = opening.ms();
     if (verify) { visuals::groundfile::verify_ground(file); }

@@ -1,8 +1,9 @@
 #include "sim/base/error.h"
+#include "sim/base/stopwatch.h"
 #include "ui/base/data_files.h"
 #include "ui/base/json_value.h"
 #include "ui/base/progress.h"
-#include "ui/base/stopwatch.h"
+#include "ui/base/stop_signals.h"
 #include "ui/command_line/setting_option.h"
 #include "ui/commands/commands.h"
 #include "ui/report/statistics.h"
@@ -82,7 +83,7 @@ WindowBench bench_window(const ViewOptions& options, int frames, bool quiet) {
     base::Progress progress("window", count, quiet);
     for (int frame = 0; frame < count; ++frame) {
         const auto timed = [&](std::vector<double>& all, const auto& work) {
-            const base::Stopwatch watch;
+            const Stopwatch watch;
             work();
             if (frame >= warm_up_frames) { all.push_back(watch.ms()); }
         };

@@ -11,9 +11,9 @@
 #include "models/simplify/simplify.h"
 #include "sim/base/error.h"
 #include "sim/base/output_file.h"
+#include "sim/base/stopwatch.h"
 #include "sim/base/text_file.h"
 #include "ui/base/progress.h"
-#include "ui/base/stopwatch.h"
 #include "ui/commands/shared_border.h"
 #include "ui/commands/simplify_chart.h"
 #include "ui/sweep/engine.h"
@@ -237,8 +237,8 @@ bool reaches_goals(
     }
     for (const AttributeBound& bound : bounds_of(command)) {
         if (bound.wanted > 0.0 && result_value(bound.result_name) > bound.wanted) {
-            refuse(fmt::format("{} are off by {:.4g}, more than {} {:.4g}", bound.name,
-                result_value(bound.result_name), bound.option, bound.wanted));
+            refuse(fmt::format("{} are off by {:.4g}, more than {} {:.4g}", bound.name, result_value(bound.result_name),
+                bound.option, bound.wanted));
         }
     }
     if ((goal.faces && result_value("faces") > static_cast<double>(*goal.faces)) ||
@@ -470,7 +470,7 @@ void simplify_as_printed(const SimplifyArguments& command, simplify::PaperMeasur
     options.show_progress = [&](double share) { progress.show(static_cast<int>(100.0 * share)); };
     results["faces_before"] = original.triangles.size();
     results["vertices_before"] = original.vertices_m.size();
-    const base::Stopwatch watch;
+    const Stopwatch watch;
     simplify::PaperResult result = simplify::paper_simplified(original, options);
     const double time_s = watch.s();
     progress.finish();
@@ -495,7 +495,7 @@ bool simplify_mesh(const SimplifyArguments& command, const simplify::AttributeSe
     results["vertices_before"] = original.vertices_m.size();
     base::Progress progress("simplifying", 100, command.quiet, "percent");
     options.show_progress = [&](double share) { progress.show(static_cast<int>(100.0 * share)); };
-    const base::Stopwatch watch;
+    const Stopwatch watch;
     simplify::Simplified result = simplified_with_bounds(command, seams, options);
     const double time_s = watch.s();
     progress.finish();
@@ -508,7 +508,7 @@ bool simplify_mesh(const SimplifyArguments& command, const simplify::AttributeSe
     results["holes_closed"] = result.holes_closed;
     results["handles_cut"] = result.handles_cut;
     add_attribute_errors(command, results, seams, result.mesh);
-    const double measured_from_s = base::process_cpu_s();
+    const double measured_from_s = process_cpu_s();
     models::TriangleMesh coloured;
     if (!original.colours.empty()) { coloured = seams.with_colours(original); }
     write_and_measure(command, command.out, seams.with_attributes(std::move(result.mesh)),
@@ -516,7 +516,7 @@ bool simplify_mesh(const SimplifyArguments& command, const simplify::AttributeSe
     results["time_s"] = time_s;
     if (command.json) {
         results["cpu_s"] = {{"collapse", result.collapse_cpu_s}, {"optimizer", result.optimize_cpu_s},
-            {"certificate", base::process_cpu_s() - measured_from_s}};
+            {"certificate", process_cpu_s() - measured_from_s}};
     }
     print_steps(command, result);
     return reaches_goals(command, options.goal, wanted_error_m, results);
@@ -546,7 +546,7 @@ bool simplify_with_shared_borders(const SimplifyArguments& command, JsonValue& r
     std::ranges::transform(command.files, std::back_inserter(outs), out_of);
     without_rounding(command, outs, models::bounds_of(marked), options.goal.error_m);
     const models::TriangleMesh original = seams.with_colours(marked);
-    const base::Stopwatch watch;
+    const Stopwatch watch;
     simplify::Simplified result = simplified_with_bounds(command, seams, options);
     if (const std::optional<std::size_t> file =
             vanished_file(files, original.triangle_materials, seams.with_colours(result.mesh).triangle_materials)) {
@@ -596,7 +596,7 @@ void simplify_into_chain(const SimplifyArguments& command, const simplify::Attri
     options.show_level = [&](std::size_t done, std::size_t of) {
         progress.show(static_cast<int>(100 * done / std::max<std::size_t>(of, 1)));
     };
-    const base::Stopwatch watch;
+    const Stopwatch watch;
     const meshfile::LevelChain chain = level_chain(seams, options);
     const double time_s = watch.s();
     progress.finish();

@@ -1,8 +1,8 @@
 #include "ui/flight/flight_loop.h"
 
+#include "sim/base/stopwatch.h"
 #include "ui/base/progress.h"
 #include "ui/base/stop_signals.h"
-#include "ui/base/stopwatch.h"
 #include "ui/report/statistics.h"
 #include "ui/settings/frame_part.h"
 
@@ -19,7 +19,7 @@ std::string fly_frames(
     const int count = session.frames() - first;
     base::Progress progress(session.world().flight.title, count, quiet);
     for (const std::string& line : sender.wait_for_channels(session)) { base::print_note(false, line); }
-    const base::Stopwatch since_start;
+    const Stopwatch since_start;
     int frame = first;
     for (; frame < session.frames() && !(base::StopSignals::received() && frame > first); ++frame) {
         const double due_s = (frame - first) / session.rate_hz();

@@ -3,11 +3,11 @@
 #include "flightpaths/track_writer.h"
 #include "sim/base/error.h"
 #include "sim/base/output_file.h"
+#include "sim/base/stopwatch.h"
 #include "sim/base/text_file.h"
 #include "sim/base/units.h"
 #include "ui/base/data_files.h"
 #include "ui/base/json_value.h"
-#include "ui/base/stopwatch.h"
 #include "ui/base/version.h"
 #include "ui/report/html_report.h"
 #include "ui/report/loaded_recording.h"
@@ -292,7 +292,7 @@ FlightRecorder::FlightRecorder(
 FlightRecorder::~FlightRecorder() = default;
 
 void FlightRecorder::add(report::FrameRecord record, Session& session) {
-    const base::Stopwatch writing;
+    const Stopwatch writing;
     flown_until_s_ = record.sim_time_s;
     record.picture_hash = session.hash_picture();
     if (recording_ && picture_every_ > 0) {

@@ -1,7 +1,7 @@
 #include "ui/flight/frame_renderer.h"
 
 #include "sim/base/error.h"
-#include "ui/base/stopwatch.h"
+#include "sim/base/stopwatch.h"
 
 #include <algorithm>
 #include <stdexcept>
@@ -116,7 +116,7 @@ FrameRenderer::PlannedPicture FrameRenderer::plan(const FrameState& now, std::op
         PictureView& view = *views_[i];
         const planning::PlanRequest wanted = request(now, i, smooth_target);
         if (i == 0) {
-            base::Stopwatch stage;
+            Stopwatch stage;
             view.planner->place_aircraft(wanted);
             planned.refine_ms = stage.lap_ms();
             view.planner->wait();

@@ -5,6 +5,7 @@
 #include "sim/base/axes.h"
 #include "sim/base/earth_frame.h"
 #include "sim/base/error.h"
+#include "sim/base/stopwatch.h"
 #include "sim/base/text_file.h"
 #include "sim/base/units.h"
 #include "sim/links/cigi_host.h"
@@ -13,7 +14,6 @@
 #include "sim/links/flightgear_fdm.h"
 #include "sim/links/xplane.h"
 #include "ui/base/stop_signals.h"
-#include "ui/base/stopwatch.h"
 #include "ui/flight/session.h"
 
 #include <algorithm>
@@ -267,7 +267,7 @@ int CigiChannels::wait_for_pictures() {
     constexpr double max_wait_after_miss_s = 0.1;
     constexpr double min_again_s = 0.02;
     constexpr double max_again_s = 0.3;
-    const base::Stopwatch since_sent;
+    const Stopwatch since_sent;
     double again_s = std::clamp(2.0 * typical_wait_s_, min_again_s, max_again_s);
     bool resent = false;
     for (receive();; receive()) {

@@ -134,7 +134,7 @@ settings::FrameRange Session::begin_frame_range(const settings::FlightPart& part
             pictures_.advance_without_drawing(current_, smooth_target_);
         }
     }
-    since_first_frame_ = base::Stopwatch();
+    since_first_frame_ = Stopwatch();
     return range;
 }
 
@@ -143,7 +143,7 @@ report::FrameRecord Session::draw_at(double time_s, std::optional<double> next_s
 }
 
 report::FrameRecord Session::render_frame(int frame, double time_s, std::optional<double> next_s) {
-    if (frame == 0) { since_first_frame_ = base::Stopwatch(); }
+    if (frame == 0) { since_first_frame_ = Stopwatch(); }
     report::FrameRecord record;
     record.frame = frame;
     record.warm_up = frame < settings_.time.warm_up;
@@ -151,8 +151,8 @@ report::FrameRecord Session::render_frame(int frame, double time_s, std::optiona
     record.wall_s = since_first_frame_.s();
 
     counters_.begin();
-    const base::Stopwatch whole;
-    base::Stopwatch stage;
+    const Stopwatch whole;
+    Stopwatch stage;
     if (next_is_simulated_ && next_.time_s == time_s) {
         std::swap(current_, next_);
     } else {
@@ -173,7 +173,7 @@ report::FrameRecord Session::render_frame(int frame, double time_s, std::optiona
         record.sim_ms += stage.lap_ms();
         pictures_.mesh_async(next_);
     }
-    const base::OffCpuTimer idle;
+    const OffCpuTimer idle;
     pictures_.draw();
     record.draw_wait_ms = idle.ms();
     record.draw_ms = stage.lap_ms();

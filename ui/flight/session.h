@@ -3,8 +3,8 @@
 #include "sim/aircraft_state.h"
 #include "sim/base/axes.h"
 #include "sim/base/hash.h"
+#include "sim/base/stopwatch.h"
 #include "sim/base/thread_pool.h"
-#include "ui/base/stopwatch.h"
 #include "ui/flight/frame_renderer.h"
 #include "ui/flight/quality_controller.h"
 #include "ui/flight/simulation.h"
@@ -178,7 +178,7 @@ private:
     int frames_drawn_ = 0;
     Hash picture_hash_;
     report::KernelCounters counters_;
-    base::Stopwatch since_first_frame_;
+    Stopwatch since_first_frame_;
     /// follow_time_of_day(): the air of another time of day, present while the task makes the ground in its colours.
     std::optional<visuals::scene::AirSettings> recoloured_air_;
     /// Written by the task.

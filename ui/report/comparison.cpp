@@ -1,6 +1,7 @@
 #include "ui/report/comparison.h"
 
 #include "sim/base/error.h"
+#include "sim/base/nearest_rank.h"
 #include "sim/base/random_generator.h"
 #include "sim/base/text_file.h"
 
@@ -98,7 +99,6 @@ RelativeChange relative_change(std::span<const double> before, std::span<const d
         const double old = bootstrap_median(before, dice);
         shares.push_back(bootstrap_median(after, dice) / old - 1.0);
     }
-    std::ranges::sort(shares);
     change.has_interval = true;
     change.low = nearest_rank(shares, 25);
     change.high = nearest_rank(shares, 975);

@@ -188,44 +188,13 @@ std::string_view text_of(ColumnKind kind) {
     return kind == ColumnKind::Number ? "number" : kind == ColumnKind::Hash ? "hash" : "whole number";
 }
 
-/// For each field of the header its column's number, one past the last for what is not ours.
-std::vector<std::size_t> read_header(
-    const std::filesystem::path& path, std::string_view line, std::span<const std::string_view> required_columns) {
-    std::vector<std::size_t> order;
-    for (const std::string_view name : split_fields(line, ',')) {
-        const auto found = std::ranges::find(frame_columns, name, &FrameColumn::key);
-        const auto column = static_cast<std::size_t>(found - frame_columns.begin());
-        if (found != frame_columns.end() && std::find(order.begin(), order.end(), column) != order.end()) {
-            throw_error_at(path, 1, fmt::format("expected column {} once, got it twice", name));
-        }
-        order.push_back(column);
-    }
-    for (std::size_t i = 0; i < frame_columns.size(); ++i) {
-        const std::string_view name = frame_columns[i].key;
-        const bool is_needed =
-            frame_columns[i].is_required ||
-            std::find(required_columns.begin(), required_columns.end(), name) != required_columns.end();
-        if (is_needed && std::find(order.begin(), order.end(), i) == order.end()) {
-            throw_error_at(path, 1, fmt::format("expected a column {}, got '{}'", name, printable(std::string(line))));
-        }
-    }
-    return order;
-}
-
-FrameRecord read_line(
-    const std::filesystem::path& path, int line_number, std::string_view line, const std::vector<std::size_t>& order) {
-    const auto fields = split_fields(line, ',');
-    if (fields.size() != order.size()) {
-        throw_error_at(path, line_number, fmt::format("expected {} fields, got {}", order.size(), fields.size()));
-    }
+FrameRecord read_row(const ColumnReader& table) {
+    table.check_field_count();
     FrameRecord record;
-    for (std::size_t i = 0; i < order.size(); ++i) {
-        if (order[i] == frame_columns.size()) { continue; }
-        const FrameColumn& column = frame_columns[order[i]];
-        if (!set_field(column, fields[i], record)) {
-            throw_error_at(path, line_number,
-                fmt::format("expected a {} in column {}, got '{}'", text_of(column.kind), column.key,
-                    printable(std::string(fields[i]))));
+    for (std::size_t i = 0; i < frame_columns.size(); ++i) {
+        const FrameColumn& column = frame_columns[i];
+        if (table.has(i) && !set_field(column, table.text(i), record)) {
+            table.refuse(fmt::format("a {} in column {}", text_of(column.kind), column.key), in_quotes(table.text(i)));
         }
     }
     return record;
@@ -253,24 +222,30 @@ FrameRecord rounded_as_csv(const FrameRecord& record) {
     return rounded;
 }
 
-FrameReader::FrameReader(fs::path path, std::span<const std::string_view> required_columns)
-    : path_(std::move(path)), lines_(TextScanner::of_file(path_)) {
-    const bool has_header = lines_.next_line();
-    is_truncated_ = has_header && lines_.is_truncated();
-    ended_ = !has_header || (is_truncated_ && frame_csv_header().starts_with(lines_.line()));
-    if (!ended_) { columns_ = read_header(path_, lines_.line(), required_columns); }
+FrameReader::FrameReader(const fs::path& path, std::span<const std::string_view> required_columns)
+    : table_(TextScanner::of_file(path), ',') {
+    const bool has_header = table_.next_row();
+    is_truncated_ = has_header && table_.is_truncated();
+    ended_ = !has_header || (is_truncated_ && frame_csv_header().starts_with(table_.row()));
+    if (ended_) { return; }
+    std::vector<TableColumn> columns;
+    for (const FrameColumn& column : frame_columns) {
+        const bool is_asked_for = std::ranges::find(required_columns, column.key) != required_columns.end();
+        columns.push_back({column.key, column.is_required || is_asked_for});
+    }
+    table_.find(columns);
 }
 
 std::optional<FrameRecord> FrameReader::next() {
-    const bool has_line = !ended_ && lines_.next_line();
-    is_truncated_ = has_line ? lines_.is_truncated() : is_truncated_;
-    if (!has_line || is_truncated_) {
+    const bool has_row = !ended_ && table_.next_row();
+    is_truncated_ = has_row ? table_.is_truncated() : is_truncated_;
+    if (!has_row || is_truncated_) {
         ended_ = true;
         return std::nullopt;
     }
-    FrameRecord record = read_line(path_, lines_.line_number(), lines_.line(), columns_);
+    FrameRecord record = read_row(table_);
     if (last_frame_ && record.frame <= *last_frame_) {
-        lines_.refuse(fmt::format("a frame after {}", *last_frame_), std::to_string(record.frame));
+        table_.refuse(fmt::format("a frame after {}", *last_frame_), std::to_string(record.frame));
     }
     last_frame_ = record.frame;
     return record;

@@ -1,7 +1,6 @@
 #pragma once
 
-#include "sim/base/text_file.h"
-#include "sim/base/text_scanner.h"
+#include "sim/base/column_reader.h"
 #include "ui/base/json_value.h"
 #include "ui/report/frame_record.h"
 
@@ -29,24 +28,21 @@ base::JsonValue frame_schema();
 /// the file are the same bit for bit.
 FrameRecord rounded_as_csv(const FrameRecord& record);
 
-/// frames.csv row by row, in the memory of one of them: columns may stand in any order, unknown ones are skipped; those
-/// that every recording has had from the first (frame_csv.cpp marks them) and those of `required_columns` must be
-/// there. An empty file has no rows. Frames must count upwards. Throws Error "file:line: expected ..., got ..." for
-/// anything else.
+/// Reads frames.csv row by row. Columns may be in any order, unknown ones are ignored. The columns that recordings of
+/// all versions have (marked in frame_csv.cpp) and those of `required_columns` must be there. An empty file has no
+/// rows. Frame numbers must increase. Throws Error "file:line: expected ..., got ..." for anything else.
 class FrameReader {
 public:
-    explicit FrameReader(std::filesystem::path path, std::span<const std::string_view> required_columns = {});
+    explicit FrameReader(const std::filesystem::path& path, std::span<const std::string_view> required_columns = {});
 
     /// The next row, nothing at the end.
     std::optional<FrameRecord> next();
 
-    /// At the end: the last line was cut short (the program was killed) and left out.
+    /// After the last row: the last line was cut short (the program was killed) and left out.
     bool is_truncated() const { return is_truncated_; }
 
 private:
-    std::filesystem::path path_;
-    TextScanner lines_;
-    std::vector<std::size_t> columns_; ///< the number of the column that each field belongs to
+    ColumnReader table_;
     std::optional<int> last_frame_;
     bool is_truncated_ = false;
     bool ended_ = false;

@@ -25,9 +25,8 @@ FrameCounters total_counters() {
 
 double tick_ms() { return 1000.0 / static_cast<double>(sysconf(_SC_CLK_TCK)); }
 
-/// A frame's counters from its line; nothing where the line is not whole.
-std::optional<std::pair<long, FrameCounters>> counters_from(std::string_view line) {
-    const auto fields = split_fields(line, ',');
+/// A frame's counters from its row; nothing if a field is missing or damaged.
+std::optional<std::pair<long, FrameCounters>> counters_from(std::span<const std::string_view> fields) {
     if (fields.size() != 4) { return std::nullopt; }
     const auto frame = whole_number(fields[0]);
     const auto faults = whole_number(fields[1]);
@@ -57,7 +56,7 @@ std::uint64_t KernelCounters::stolen_ticks() {
     line = line.substr(0, line.find('\n'));
     const auto words = split_words(line);
     const auto ticks = words.size() > place ? whole_number(words[place]) : std::nullopt;
-    since_stolen_ = base::Stopwatch();
+    since_stolen_ = Stopwatch();
     return ticks && *ticks > 0 ? static_cast<std::uint64_t>(*ticks) : 0;
 }
 
@@ -84,13 +83,13 @@ std::string counters_line(const FrameRecord& record) {
 CounterReader::CounterReader(const std::filesystem::path& file) {
     std::error_code ignored;
     if (!std::filesystem::is_regular_file(file, ignored)) { return; }
-    lines_ = TextScanner::of_file(file);
-    if (!lines_->next_line() || counters_header() != std::string(lines_->line()) + "\n") { lines_.reset(); }
+    table_.emplace(TextScanner::of_file(file), ',');
+    if (!table_->next_row() || counters_header() != std::string(table_->row()) + "\n") { table_.reset(); }
 }
 
 std::optional<std::pair<long, FrameCounters>> CounterReader::next() {
-    while (lines_ && lines_->next_line()) {
-        const auto counters = lines_->is_truncated() ? std::nullopt : counters_from(lines_->line());
+    while (table_ && table_->next_row()) {
+        const auto counters = table_->is_truncated() ? std::nullopt : counters_from(table_->fields());
         if (counters) { return counters; }
     }
     return std::nullopt;

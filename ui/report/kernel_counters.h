@@ -1,7 +1,7 @@
 #pragma once
 
-#include "sim/base/text_scanner.h"
-#include "ui/base/stopwatch.h"
+#include "sim/base/column_reader.h"
+#include "sim/base/stopwatch.h"
 #include "ui/report/frame_record.h"
 #include "ui/report/statistics.h"
 
@@ -38,7 +38,7 @@ private:
     std::uint64_t stolen_ticks();
 
     int stat_ = -1; ///< /proc/stat
-    base::Stopwatch since_stolen_;
+    Stopwatch since_stolen_;
     std::uint64_t stolen_ticks_ = 0;
     std::uint64_t reported_stolen_ticks_ = 0;
     FrameCounters reported_counts_; ///< without stolen_ms
@@ -54,7 +54,7 @@ public:
     /// A file that is not there, or none of ours, has no frames.
     explicit CounterReader(const std::filesystem::path& file);
 
-    bool is_there() const { return lines_.has_value(); }
+    bool is_there() const { return table_.has_value(); }
 
     /// Counters of a frame later than all frames queried before; all zero if the file has none for it.
     FrameCounters of(int frame);
@@ -63,7 +63,7 @@ public:
     std::optional<std::pair<long, FrameCounters>> next();
 
 private:
-    std::optional<TextScanner> lines_;
+    std::optional<ColumnReader> table_;
 };
 
 /// Fills in the counters of these frames from a counters.csv; false where there is none or it is none of ours, as in

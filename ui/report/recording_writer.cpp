@@ -1,7 +1,6 @@
 #include "ui/report/recording_writer.h"
 
 #include "sim/base/error.h"
-#include "sim/base/format_once.h"
 #include "ui/report/folder_lock.h"
 #include "ui/report/frame_csv.h"
 #include "ui/report/frame_record.h"
@@ -13,7 +12,6 @@
 #include <cassert>
 #include <cmath>
 #include <fmt/format.h>
-#include <iterator>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -34,16 +32,14 @@ std::string plain_field(std::string text) {
 // A trace for Perfetto and chrome://tracing: a list of events that both also read without its end (Trace Event Format,
 // "JSON Array Format"), times in microseconds.
 
-using Out = std::back_insert_iterator<std::string>;
-
-void append_duration(Out out, const char* name, double start_us, double duration_us) {
-    fmt::format_to(out, ",\n{{\"name\":\"{}\",\"ph\":\"X\",\"ts\":{:.3f},\"dur\":{:.3f},\"pid\":1,\"tid\":1", name,
+void append_duration(std::string& text, const char* name, double start_us, double duration_us) {
+    text += fmt::format(",\n{{\"name\":\"{}\",\"ph\":\"X\",\"ts\":{:.3f},\"dur\":{:.3f},\"pid\":1,\"tid\":1", name,
         start_us, duration_us);
 }
 
-void append_counter(Out out, const char* name, double at_us, double value) {
+void append_counter(std::string& text, const char* name, double at_us, double value) {
     if (std::isfinite(value)) {
-        fmt::format_to(out, ",\n{{\"name\":\"{}\",\"ph\":\"C\",\"ts\":{:.3f},\"pid\":1,\"args\":{{\"value\":{}}}}}",
+        text += fmt::format(",\n{{\"name\":\"{}\",\"ph\":\"C\",\"ts\":{:.3f},\"pid\":1,\"args\":{{\"value\":{}}}}}",
             name, at_us, value);
     }
 }
@@ -59,22 +55,21 @@ constexpr std::string_view trace_end = "\n]\n";
 /// instant event at an overrun.
 std::string trace_events(const FrameRecord& record) {
     std::string text;
-    const Out out(text);
     const double start_us = 1e6 * record.wall_s;
-    append_duration(out, "frame", start_us, 1e3 * record.frame_ms);
-    fmt::format_to(out, ",\"args\":{{\"frame\":{},\"sim_time_s\":{},\"warm_up\":{},\"draw_cell\":{}}}}}", record.frame,
+    append_duration(text, "frame", start_us, 1e3 * record.frame_ms);
+    text += fmt::format(",\"args\":{{\"frame\":{},\"sim_time_s\":{},\"warm_up\":{},\"draw_cell\":{}}}}}", record.frame,
         record.sim_time_s, record.warm_up, record.draw_cell);
     double stage_us = start_us;
     for (const auto& [name, stage_ms] : {std::pair("sim", record.sim_ms), std::pair("plan", record.plan_ms),
              std::pair("draw", record.draw_ms), std::pair("read", record.read_ms)}) {
-        append_duration(out, name, stage_us, 1e3 * stage_ms);
-        fmt::format_to(out, "}}");
+        append_duration(text, name, stage_us, 1e3 * stage_ms);
+        text += "}";
         stage_us += 1e3 * stage_ms;
     }
-    append_counter(out, "terrain triangles", start_us, record.terrain_triangles);
-    append_counter(out, "resolution C", start_us, record.resolution_c);
+    append_counter(text, "terrain triangles", start_us, record.terrain_triangles);
+    append_counter(text, "resolution C", start_us, record.resolution_c);
     if (record.overrun != 0) {
-        fmt::format_to(out, ",\n{{\"name\":\"overrun\",\"ph\":\"i\",\"s\":\"t\",\"ts\":{:.3f},\"pid\":1,\"tid\":1}}",
+        text += fmt::format(",\n{{\"name\":\"overrun\",\"ph\":\"i\",\"s\":\"t\",\"ts\":{:.3f},\"pid\":1,\"tid\":1}}",
             start_us + 1e3 * record.frame_ms);
     }
     return text;

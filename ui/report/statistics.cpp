@@ -49,11 +49,6 @@ std::string statistic_text(const Statistic& statistic, const Statistics& statist
     return text_of(statistic, statistics);
 }
 
-double nearest_rank(std::span<const double> sorted, int permille) {
-    assert(permille >= 1 && permille <= 1000);
-    return sorted.empty() ? 0.0 : sorted[rank_of(sorted.size(), permille) - 1];
-}
-
 void FrameTimeHistogram::add(double frame_ms) {
     ++counts_[frame_ms];
     if (frames_++ > 0) { change_ms_ += std::abs(frame_ms - last_ms_); }

@@ -52,10 +52,6 @@ std::span<const Statistic> all_statistics();
 /// A figure as people read it, with its decimals; "-" for a time or rate of no frames.
 std::string statistic_text(const Statistic& statistic, const Statistics& statistics);
 
-/// The value of rank ceil(n * permille / 1000), counted from 1, of values sorted upwards. `permille` in [1, 1000]; 0
-/// when there are no values.
-double nearest_rank(std::span<const double> sorted, int permille);
-
 /// Frame times counted one by one, so that a flight's figures are known without its rows. Takes memory for each
 /// different time, not for each frame: times rounded as frames.csv has them are hardly more than ten thousand for a
 /// second of range.

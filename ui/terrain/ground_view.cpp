@@ -1,5 +1,6 @@
 #include "ui/terrain/ground_view.h"
 
+#include "sim/base/column_reader.h"
 #include "sim/base/error.h"
 #include "sim/base/text_file.h"
 #include "sim/base/units.h"
@@ -98,24 +99,18 @@ LoadedGround load_ground(GroundViewOptions& options, bool quiet) {
 }
 
 std::vector<EyePoint> read_eye_points(const std::filesystem::path& file, const std::string& map) {
-    const std::string text = read_text_file(file);
+    ColumnReader table(TextScanner::of_file(file), ',');
     std::vector<EyePoint> points;
-    int line_number = 0;
-    for (const std::string_view line : split_lines(text)) {
-        ++line_number;
-        const auto fields = split_fields(line, ',');
-        if (line.empty() || line.front() == '#' || fields.front() != map) { continue; }
+    while (table.next_row()) {
+        const auto& fields = table.fields();
+        if (fields.front() != map) { continue; }
         std::array<double, 5> numbers{};
         for (std::size_t k = 0; k < numbers.size(); ++k) {
-            const auto number = fields.size() == 6 ? finite_number(fields[k + 1]) : std::optional<double>();
-            if (!number) {
-                throw_error_at(file, line_number,
-                    fmt::format(
-                        "expected map,x_m,y_m,agl_m,heading_deg,pitch_deg, got '{}'", printable(std::string(line))));
-            }
+            const auto number = fields.size() == 6 ? finite_number(fields[k + 1]) : std::nullopt;
+            if (!number) { table.refuse("map,x_m,y_m,agl_m,heading_deg,pitch_deg", in_quotes(table.row())); }
             numbers[k] = *number;
         }
-        points.push_back({line_number, numbers[0], numbers[1], numbers[2], numbers[3], numbers[4]});
+        points.push_back({table.line_number(), numbers[0], numbers[1], numbers[2], numbers[3], numbers[4]});
     }
     if (points.empty()) { throw_error_in(file, fmt::format("expected rows of map '{}', got none", printable(map))); }
     return points;

@@ -1,5 +1,6 @@
 #include "ui/terrain/terrain_query.h"
 
+#include "sim/base/column_reader.h"
 #include "sim/base/error.h"
 #include "sim/base/text_file.h"
 #include "ui/base/json_value.h"
@@ -75,20 +76,14 @@ std::optional<QueryPoint> point_from_text(std::string_view text) {
 }
 
 std::vector<QueryPoint> read_points(const std::filesystem::path& file) {
-    const std::string text = read_text_file(file);
+    ColumnReader table(TextScanner::of_file(file), ',');
     std::vector<QueryPoint> points;
-    int line_number = 0;
     bool names_may_come = true;
-    for (const std::string_view line : split_lines(text)) {
-        ++line_number;
-        if (line.empty() || line.front() == '#') { continue; }
-        const auto point = point_from_text(line);
-        const bool names = names_may_come && line.starts_with('x');
+    while (table.next_row()) {
+        const auto point = point_from_text(table.row());
+        const bool names = names_may_come && table.row().starts_with('x');
         names_may_come = false;
-        if (!point && !names) {
-            throw_error_at(file, line_number,
-                fmt::format("expected x,y or x,y,z in metres, got '{}'", printable(std::string(line))));
-        }
+        if (!point && !names) { table.refuse("x,y or x,y,z in metres", in_quotes(table.row())); }
         if (point) { points.push_back(*point); }
     }
     return points;

@@ -96,7 +96,7 @@ Viewer::Viewer(const ViewOptions& options) : options_(options), sender_(options.
     if (options.full_screen) { toggle_full_screen(); }
     for (const std::string& note : session_->world().notes) { show_message(note); }
     if (options.record) { start_recording(*options.record); }
-    clock_ = base::Stopwatch();
+    clock_ = Stopwatch();
 }
 
 std::unique_ptr<scene::Renderer> Viewer::make_window_renderer(

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "ui/base/stopwatch.h"
+#include "sim/base/stopwatch.h"
 #include "ui/flight/flight_recorder.h"
 #include "ui/flight/listener.h"
 #include "ui/flight/sender.h"
@@ -143,7 +143,7 @@ private:
     std::optional<WindowRecording> recording_;
     /// Records a flight that other programs fly.
     std::optional<flight::FlightRecorder> live_recorder_;
-    base::Stopwatch clock_;
+    Stopwatch clock_;
     double last_frame_s_ = 0.0;
     /// Simulated time of the next picture.
     double shown_s_ = 0.0;

@@ -3,8 +3,8 @@
 #include "flightpaths/track_writer.h"
 #include "sim/base/error.h"
 #include "sim/base/output_file.h"
+#include "sim/base/stopwatch.h"
 #include "sim/flight_steps.h"
-#include "ui/base/stopwatch.h"
 #include "ui/flight/flight_recorder.h"
 #include "ui/settings/settings_file.h"
 #include "ui/world/input_files.h"
@@ -95,7 +95,7 @@ void WindowRecording::append_states(flight::Session& session) {
 
 void WindowRecording::add(report::FrameRecord record, flight::Session& session) {
     if (std::exchange(first_is_older_, false)) { return; }
-    const base::Stopwatch writing;
+    const Stopwatch writing;
     record.frame = frames_++;
     last_time_s_ = record.sim_time_s;
     last_hash_ = session.state_hash_of_last_picture();

@@ -4,7 +4,7 @@
 #include "models/repair/repair.h"
 #include "models/simplify/simplify.h"
 #include "sim/base/output_file.h"
-#include "ui/base/stopwatch.h"
+#include "sim/base/stopwatch.h"
 #include "ui/world/aircraft_axes.h"
 #include "ui/world/mesh_loader.h"
 #include "visuals/refine/active_mesh.h"
@@ -145,7 +145,7 @@ RefineMesh hierarchy_in(const fs::path& file, const fs::path& cache, MeshAircraf
 }
 
 MeshAircraft from_hierarchy(const fs::path& file, const std::string& setting, const fs::path& cache) {
-    const base::Stopwatch watch;
+    const Stopwatch watch;
     MeshAircraft aircraft;
     RefineMesh input = hierarchy_in(file, cache, aircraft);
     const AircraftAxes axes = aircraft_axes(setting, file, finest_mesh(*input.mesh));

@@ -9,6 +9,7 @@
 #include "visuals/bsp/partial_bsp_tree.h"
 
 #include "models/polygons/polygon_outlines.h"
+#include "sim/base/bit_set.h"
 #include "visuals/bsp/component_search.h"
 #include "visuals/bsp/piece_batch.h"
 
@@ -309,24 +310,6 @@ std::optional<Plane> splitting_plane(const PolygonPieces& pieces, std::span<cons
 
 // What hides what for eyes anywhere, and which pieces have an order that is right for all of them.
 
-/// A square of bits, 64 to a word.
-class BitMatrix {
-public:
-    explicit BitMatrix(std::size_t count) : words_((count + 63) / 64), bits_(count * words_, 0) {}
-
-    std::size_t words() const { return words_; }
-
-    std::uint64_t& word(std::size_t row, std::size_t word) { return bits_[row * words_ + word]; }
-
-    void add(std::size_t row, std::size_t column) { word(row, column / 64) |= std::uint64_t{1} << (column % 64); }
-
-    void remove(std::size_t row, std::size_t column) { word(row, column / 64) &= ~(std::uint64_t{1} << (column % 64)); }
-
-private:
-    std::size_t words_;
-    std::vector<std::uint64_t> bits_;
-};
-
 /// Whether a line along an edge of `a` parts it from `b`; both lie in the plane of `a`.
 bool has_separating_edge(const PolygonPieces& pieces, const PolygonPiece& a, const PolygonPiece& b) {
     const auto place = [&](std::uint32_t corner) -> const glm::dvec3& { return pieces.at(corner); };
@@ -345,11 +328,11 @@ bool is_decal_on(const PolygonPieces& pieces, std::uint32_t upper, std::uint32_t
 class OcclusionMatrix {
 public:
     OcclusionMatrix(const PolygonPieces& pieces, std::span<const std::uint32_t> items)
-        : pieces_(pieces), items_(items), hides_(items.size()), reaches_behind_(items.size()),
-          still_(hides_.words(), 0) {
+        : pieces_(pieces), items_(items), hides_(items.size(), items.size()),
+          reaches_behind_(items.size(), items.size()), still_(items.size()) {
         for (std::size_t i = 0; i < items.size(); ++i) {
             const PolygonPiece& piece = pieces[items[i]];
-            still_[i / 64] |= std::uint64_t{piece.plane && !piece.pivot} << (i % 64);
+            if (piece.plane && !piece.pivot) { still_.add(i); }
         }
     }
 
@@ -359,8 +342,8 @@ public:
             if (is_still(a)) { test_sides(table, a); }
         }
         for (std::size_t a = 0; a < items_.size(); ++a) {
-            for (std::size_t i = 0; i < hides_.words() && is_still(a); ++i) {
-                hides_.word(a, i) &= reaches_behind_.word(a, i) & still_[i];
+            for (std::size_t i = 0; i < hides_.row_words() && is_still(a); ++i) {
+                hides_.row(a)[i] &= reaches_behind_.row(a)[i] & still_.words()[i];
             }
             add_others(a);
             hides_.remove(a, a);
@@ -371,13 +354,13 @@ public:
 
 private:
     /// Whether a piece has a plane that stands still.
-    bool is_still(std::size_t i) const { return ((still_[i / 64] >> (i % 64)) & 1U) != 0; }
+    bool is_still(std::size_t i) const { return still_.has(i); }
 
     /// Tests the pairs of which one has no plane that stands still.
     void add_others(std::size_t a) {
-        for (std::size_t i = 0; i < still_.size(); ++i) {
+        for (std::size_t i = 0; i < still_.words().size(); ++i) {
             const std::size_t end = std::min((i + 1) * 64, items_.size());
-            const bool all_still = std::popcount(still_[i]) == static_cast<int>(end - i * 64);
+            const bool all_still = std::popcount(still_.words()[i]) == static_cast<int>(end - i * 64);
             for (std::size_t b = i * 64; b < end && !(is_still(a) && all_still); ++b) {
                 if (!(is_still(a) && is_still(b)) && occludes(pieces_, items_[b], items_[a])) { hides_.add(a, b); }
             }
@@ -388,11 +371,11 @@ private:
     void test_sides(const PieceTable& table, std::size_t a) {
         for (std::size_t i = 0; i < table.blocks(); ++i) {
             const PlaneSideBits sides_reached = table.sides_reached(i, *pieces_[items_[a]].plane);
-            hides_.word(a, i) = sides_reached.before;
+            hides_.row(a)[i] = sides_reached.before;
             for (std::uint64_t left = sides_reached.behind; left != 0; left &= left - 1) {
                 reaches_behind_.add(i * 64 + static_cast<std::size_t>(std::countr_zero(left)), a);
             }
-            for (std::uint64_t left = still_[i] & ~(sides_reached.before | sides_reached.behind); left != 0;
+            for (std::uint64_t left = still_.words()[i] & ~(sides_reached.before | sides_reached.behind); left != 0;
                  left &= left - 1) {
                 const std::size_t b = i * 64 + static_cast<std::size_t>(std::countr_zero(left));
                 if (b != a && is_decal_on(pieces_, items_[b], items_[a])) { decals_.emplace_back(b, a); }
@@ -404,7 +387,7 @@ private:
     std::span<const std::uint32_t> items_;
     BitMatrix hides_;          ///< At first the pieces that reach before the plane of the row's piece.
     BitMatrix reaches_behind_; ///< The pieces behind whose planes the row's piece reaches.
-    std::vector<std::uint64_t> still_;
+    BitSet still_;
     std::vector<std::pair<std::size_t, std::size_t>> decals_; ///< In one plane: upper, lower.
 };
 
@@ -427,7 +410,7 @@ std::vector<std::vector<std::uint32_t>> occlusion_components(
     std::iota(last_first.rbegin(), last_first.rend(), 0U);
     std::vector<std::vector<std::uint32_t>> components;
     ComponentSearch().search(
-        items.size(), last_first, [&](std::uint32_t a, std::size_t word) { return hides.word(a, word); },
+        items.size(), last_first, [&](std::uint32_t a, std::size_t word) { return hides.row(a)[word]; },
         [&](std::span<const std::uint32_t> found) {
             std::vector<std::uint32_t>& component = components.emplace_back();
             for (const std::uint32_t i : found) { component.push_back(items[i]); }

@@ -2,7 +2,6 @@
 
 #include "models/polygons/file_axes.h"
 #include "models/polygons/polygon_model.h"
-#include "sim/base/format_once.h"
 #include "visuals/draworder/draw_order.h"
 #include "visuals/draworder/proof_walk.h"
 #include "visuals/separation/separating_plane_proof.h"
@@ -11,7 +10,6 @@
 #include <cstdint>
 #include <fmt/format.h>
 #include <functional>
-#include <iterator>
 #include <span>
 #include <string>
 #include <utility>
@@ -42,7 +40,7 @@ std::string text_of_child(int child, const char* if_nothing = " nothing") {
 
 template <typename... Values>
 void append(std::string& text, fmt::format_string<Values...> format, Values&&... values) {
-    fmt::format_to(std::back_inserter(text), format, std::forward<Values>(values)...);
+    text += fmt::format(format, std::forward<Values>(values)...);
 }
 
 /// The lines of a certificate, in the order in which they are added; visuals/verify/certificate-format.md says what

@@ -201,7 +201,7 @@ Face outline_of(const models::polygons::PolygonModel& model, std::size_t polygon
 /// an order by polygon number breaks, and a note says so.
 void add_rigid_pairs(const models::polygons::PolygonModel& model, std::uint32_t pivot, ModelFaces& out) {
     OcclusionTest test(out.tolerances);
-    PolygonSet part(out.faces.size());
+    BitSet part(out.faces.size());
     std::vector<Face> still(out.faces.size());
     for (std::size_t i = 0; i < out.faces.size(); ++i) {
         if (out.faces[i].pivot == pivot) {
@@ -508,8 +508,8 @@ OcclusionGraph OcclusionGraphBuilder::at_eye(
     return graph;
 }
 
-PolygonSet OcclusionGraphBuilder::listed(const ViewRegion& region) const {
-    PolygonSet set(faces_.faces.size());
+BitSet OcclusionGraphBuilder::listed(const ViewRegion& region) const {
+    BitSet set(faces_.faces.size());
     for (std::size_t i = 0; i < faces_.faces.size(); ++i) {
         const auto& plane = faces_.faces[i].plane;
         if (!plane || region.intersects_front_of(*plane)) { set.add(i); }

@@ -132,8 +132,8 @@ private:
 
 /// The polygons on each side of a plane that cuts a region, as seen from one of its sides.
 struct PlaneSideSets {
-    PolygonSet front_or_on;
-    PolygonSet back_or_on;
+    BitSet front_or_on;
+    BitSet back_or_on;
 };
 
 /// Builds the occlusion graphs of a model's faces over regions of eye space. Keeps a reference to the faces; its memory
@@ -162,7 +162,7 @@ public:
     OcclusionGraph at_eye(const glm::dvec3& eye, const OcclusionGraph& parent, std::span<const std::uint32_t> among);
 
     /// The polygons that face some eye of a region.
-    PolygonSet listed(const ViewRegion& region) const;
+    BitSet listed(const ViewRegion& region) const;
 
 private:
     /// Prepares occludes() for a region and a face `a`: cuts the region to the front of `a`. Returns false when nothing

@@ -93,7 +93,7 @@ void OcclusionGraph::add_sibling(std::size_t polygon) {
     *this = std::move(bigger);
 }
 
-std::vector<Precedence> OcclusionGraph::precedences(const PolygonSet& among) const {
+std::vector<Precedence> OcclusionGraph::precedences(const BitSet& among) const {
     std::vector<Precedence> pairs;
     for_each_bit(among.words(), [&](std::size_t a) {
         for_each_bit(row(a), [&](std::size_t b) {
@@ -104,26 +104,24 @@ std::vector<Precedence> OcclusionGraph::precedences(const PolygonSet& among) con
 }
 
 std::size_t CyclicEdgeCounter::count(const OcclusionGraph& graph, std::span<const std::uint32_t> among,
-    const PolygonSet& occluders, const PolygonSet& occluded, const PolygonSet& removed) {
-    const std::size_t words = occluders.words().size();
-    allowed_.assign(words, 0);
-    members_.assign(words, 0);
-    row_.assign(words, 0);
+    const BitSet& occluders, const BitSet& occluded, const BitSet& removed) {
+    allowed_.clear(graph.count());
+    row_.assign(allowed_.words().size(), 0);
     for (const std::uint32_t polygon : among) {
-        if (!removed.has(polygon)) { allowed_[polygon / 64] |= std::uint64_t{1} << (polygon % 64); }
+        if (!removed.has(polygon)) { allowed_.add(polygon); }
     }
     const auto row_word = [&](std::uint32_t polygon, std::size_t word) {
         const std::uint64_t without = occluded.has(polygon) ? occluders.words()[word] : 0;
-        return graph.row(polygon)[word] & allowed_[word] & ~without;
+        return graph.row(polygon)[word] & allowed_.words()[word] & ~without;
     };
     std::size_t edges = 0;
     search_.search(graph.count(), among, row_word, [&](std::span<const std::uint32_t> component) {
         if (component.size() < 2) { return; }
-        std::ranges::fill(members_, std::uint64_t{0});
-        for (const std::uint32_t polygon : component) { members_[polygon / 64] |= std::uint64_t{1} << (polygon % 64); }
+        members_.clear(graph.count());
+        for (const std::uint32_t polygon : component) { members_.add(polygon); }
         for (const std::uint32_t polygon : component) {
-            for (std::size_t word = 0; word < words; ++word) { row_[word] = row_word(polygon, word); }
-            edges += count_common_bits(row_, members_);
+            for (std::size_t word = 0; word < row_.size(); ++word) { row_[word] = row_word(polygon, word); }
+            edges += count_common_bits(row_, members_.words());
         }
     });
     return edges;
@@ -131,14 +129,14 @@ std::size_t CyclicEdgeCounter::count(const OcclusionGraph& graph, std::span<cons
 
 CyclicPart cyclic_part_of(const OcclusionGraph& graph, std::span<const std::uint32_t> among) {
     CyclicPart cycles{.polygons = {}, .components = {}, .inner = OcclusionGraph(graph.count())};
-    PolygonSet allowed(graph.count());
+    BitSet allowed(graph.count());
     for (const std::uint32_t polygon : among) { allowed.add(polygon); }
     const auto row_word = [&](std::uint32_t polygon, std::size_t word) {
         return graph.row(polygon)[word] & allowed.words()[word];
     };
     bsp::ComponentSearch().search(graph.count(), among, row_word, [&](std::span<const std::uint32_t> component) {
         if (component.size() < 2) { return; }
-        PolygonSet inside(graph.count());
+        BitSet inside(graph.count());
         for (const std::uint32_t polygon : component) { inside.add(polygon); }
         for (const std::uint32_t polygon : component) {
             const auto to = cycles.inner.row(polygon);

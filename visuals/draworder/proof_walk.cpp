@@ -55,7 +55,7 @@ private:
     struct Level {
         int child = 0;
         std::size_t region_plane_count = 0;
-        std::vector<PolygonSet> proved; ///< By the later polygon: the earlier ones of the pairs that are proved.
+        std::vector<BitSet> proved; ///< By the later polygon: the earlier ones of the pairs that are proved.
     };
 
     void look_at(const Task& task) {
@@ -81,9 +81,9 @@ private:
 
     /// Reports the pairs of a list below view splits that no plane of a polygon and no region plane decides.
     void check_unproved_pairs(const Task& task, std::span<const std::uint32_t> list) {
-        PolygonSet painted(model_.polygons.size());
+        BitSet painted(model_.polygons.size());
         for (const std::uint32_t later : list) {
-            PolygonSet unproved = painted;
+            BitSet unproved = painted;
             unproved.remove(levels_.back().proved[later]);
             for_each_bit(unproved.words(),
                 [&](std::size_t earlier) { find_proof_for_eyes(task, static_cast<std::uint32_t>(earlier), later); });
@@ -142,7 +142,7 @@ private:
     void check_view_split(const Task& task, const DrawOrder::Node& node) {
         const bool is_first = levels_.empty();
         if (is_first) {
-            const PolygonSet none(model_.polygons.size());
+            const BitSet none(model_.polygons.size());
             levels_.push_back({task.child, task.region_planes.size(), {model_.polygons.size(), none}});
             const Polygons below = contents(task.child);
             for (const std::uint32_t later : below) { check_row(task.child, below, later); }
@@ -160,7 +160,7 @@ private:
         Task side{child, task.region_planes, task.expected, false};
         side.region_planes.push_back(wall);
         Level level{child, side.region_planes.size(), levels_.back().proved};
-        PolygonSet behind(model_.polygons.size());
+        BitSet behind(model_.polygons.size());
         Polygons before;
         for (std::uint32_t i = 0; i < model_.polygons.size(); ++i) {
             if (is_behind(local_, i, wall, true)) { behind.add(i); }

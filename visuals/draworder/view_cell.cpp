@@ -71,7 +71,7 @@ std::optional<PersistentCycle> cycle_at_eye(OcclusionGraphBuilder& graphs, const
 
 std::vector<std::vector<std::uint32_t>> component_sets(const OcclusionGraphBuilder& graphs, const ViewCell& node) {
     const std::size_t count = node.graph.count();
-    const PolygonSet listed = graphs.listed(node.region);
+    const BitSet listed = graphs.listed(node.region);
     std::vector<std::vector<std::uint32_t>> sets(count); // by their first polygons
     std::vector<std::size_t> set_of(count);
     std::iota(set_of.begin(), set_of.end(), std::size_t{0});

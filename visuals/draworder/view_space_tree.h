@@ -25,11 +25,11 @@ namespace octant::visuals::draworder {
 /// plane and face away from all eyes there.
 struct PolygonsByPlaneSide {
     explicit PolygonsByPlaneSide(std::size_t count)
-        : sets{PolygonSet(count), PolygonSet(count)}, back_facing_in_front(count), back_facing_behind(count) {}
+        : sets{BitSet(count), BitSet(count)}, back_facing_in_front(count), back_facing_behind(count) {}
 
     PlaneSideSets sets;
-    PolygonSet back_facing_in_front;
-    PolygonSet back_facing_behind;
+    BitSet back_facing_in_front;
+    BitSet back_facing_behind;
 };
 
 /// Where the polygons `among` lie to a plane.

@@ -69,7 +69,7 @@ scene::GroundImage draped(
     image.first_m = 0.5 * image.step_m - half_extent_m;
     image.texels.resize(
         std::size_t{3} * static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height));
-    by_rows(image.height, [&](int row) {
+    parallel_for_rows(image.height, [&](int row) {
         std::uint8_t* to = &image.texels[3 * index_of(image, 0, row)];
         for (int column = 0; column < image.width; ++column, to += 3) {
             const std::uint8_t* const own = drape.pixel(column, image.height - 1 - row);
@@ -108,7 +108,8 @@ glm::dvec3 sum_of_lit_row(const scene::GroundTexture& texture, const nature::Day
 glm::vec3 mean_lit(const scene::GroundTexture& texture, const nature::Daylight& day) {
     const scene::GroundImage& normal = texture.normal;
     std::vector<glm::dvec3> rows(static_cast<std::size_t>(normal.height));
-    by_rows(normal.height, [&](int row) { rows[static_cast<std::size_t>(row)] = sum_of_lit_row(texture, day, row); });
+    parallel_for_rows(
+        normal.height, [&](int row) { rows[static_cast<std::size_t>(row)] = sum_of_lit_row(texture, day, row); });
     const glm::dvec3 sum = std::accumulate(rows.begin(), rows.end(), glm::dvec3(0.0));
     return glm::vec3(sum / (255.0 * normal.width * normal.height));
 }
@@ -130,7 +131,7 @@ scene::GroundTexture ground_texture(const terrain::GroundSamples& ground, const 
     texture.albedo = sampled(ground, stride, 3);
     const GroundPalette palette(settings, climate, make_relief_shadows(ground, settings));
     const auto footprint_m = static_cast<float>(stride * ground.spacing_m());
-    by_rows(texture.normal.height, [&](int row) {
+    parallel_for_rows(texture.normal.height, [&](int row) {
         for (int column = 0; column < texture.normal.width; ++column) {
             const TerrainPoint point = ground_point(ground, column * stride, row * stride, stride);
             const glm::vec3 own = palette.albedo(point, footprint_m) * palette.light_visibility(point, footprint_m);

@@ -3,7 +3,6 @@
 
 #include "models/polygons/file_axes.h"
 #include "sim/base/error.h"
-#include "sim/base/format_once.h"
 #include "sim/base/plane.h"
 #include "sim/base/text_file.h"
 #include "sim/base/text_scanner.h"
@@ -18,7 +17,6 @@
 #include <filesystem>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <iterator>
 #include <optional>
 #include <set>
 #include <string>
@@ -130,7 +128,7 @@ std::string numbers(const glm::dvec3& v) { return fmt::format("{:.17g} {:.17g} {
 
 std::string indices(const std::vector<std::uint32_t>& list) {
     std::string text;
-    for (const std::uint32_t index : list) { fmt::format_to(std::back_inserter(text), " {}", index); }
+    for (const std::uint32_t index : list) { text += fmt::format(" {}", index); }
     return text;
 }
 

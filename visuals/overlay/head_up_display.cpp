@@ -3,7 +3,6 @@
 // airspeed; the air moves with the ground and has the standard atmosphere's temperature above datum (ISO 2533,
 // troposphere and tropopause); the height above ground is that straight below the aircraft.
 #include "sim/base/axes.h"
-#include "sim/base/format_once.h"
 #include "sim/base/units.h"
 #include "visuals/overlay/head_up_glass.h"
 #include "visuals/overlay/overlay.h"

@@ -1,7 +1,5 @@
 #pragma once
 
-#include "sim/base/format_once.h"
-
 #include <algorithm>
 #include <array>
 #include <cstddef>

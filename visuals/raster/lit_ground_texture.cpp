@@ -91,7 +91,7 @@ void LitGroundTexture::light(const Light& light) {
     levels_.clear();
     levels_.emplace_back(std::max(albedo.width, 2), std::max(albedo.height, 2));
     MipLevel& level = levels_.back();
-    by_rows(level.height, [&](int row) { light_row(texture_, light, row, level); });
+    parallel_for_rows(level.height, [&](int row) { light_row(texture_, light, row, level); });
     while (levels_.back().width > 2 || levels_.back().height > 2) { levels_.push_back(half_of(levels_.back())); }
 }
 

@@ -15,6 +15,8 @@
 //   numbers of each face's original corners tell the side.
 #include "visuals/refine/selective_refiner.h"
 
+#include "sim/base/bit_set.h"
+
 #include <glm/geometric.hpp>
 
 #include <algorithm>
@@ -30,19 +32,14 @@ namespace {
 
 RefinedVertex drawn(const NodeGeometry& shape) { return {shape.position_m, shape.normal, packed_rgba8(shape.colour)}; }
 
-/// The given nodes without repetition in descending order, by a bitmap over all nodes.
+/// The given nodes without repetition in descending order.
 std::vector<std::uint32_t> falling(std::span<const std::uint32_t> nodes, std::size_t node_count) {
-    std::vector<std::uint64_t> wanted(node_count / 64 + 1, 0);
-    for (const std::uint32_t node : nodes) { wanted[node / 64] |= std::uint64_t{1} << node % 64; }
+    BitSet wanted(node_count);
+    for (const std::uint32_t node : nodes) { wanted.add(node); }
     std::vector<std::uint32_t> ordered;
     ordered.reserve(nodes.size());
-    for (std::size_t word = wanted.size(); word-- > 0;) {
-        for (std::uint64_t bits = wanted[word]; bits != 0;) {
-            const auto bit = static_cast<std::size_t>(63 - std::countl_zero(bits));
-            ordered.push_back(static_cast<std::uint32_t>(64 * word + bit));
-            bits ^= std::uint64_t{1} << bit;
-        }
-    }
+    for_each_bit(wanted.words(), [&](std::size_t node) { ordered.push_back(static_cast<std::uint32_t>(node)); });
+    std::ranges::reverse(ordered);
     return ordered;
 }
 

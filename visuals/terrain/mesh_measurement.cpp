@@ -132,13 +132,6 @@ int triangles_in_view(const GroundMesh& mesh, const PerspectiveView& view) {
     return count;
 }
 
-/// A percentile by nearest rank; reorders the values.
-double nearest_rank(std::vector<float>& values, int permille) {
-    const auto at = values.begin() + static_cast<std::ptrdiff_t>(rank_of(values.size(), permille) - 1);
-    std::nth_element(values.begin(), at, values.end());
-    return static_cast<double>(*at);
-}
-
 /// The figures over all errors; reorders them.
 void summarise(std::vector<float>& errors_px, ProjectedError& error) {
     if (errors_px.empty()) { return; }
@@ -174,8 +167,7 @@ struct ProjectedErrorMeter::Picture {
     }
 };
 
-ProjectedErrorMeter::ProjectedErrorMeter(GroundSamples ground, int threads)
-    : ground_(ground), threads_(threads), words_per_row_((static_cast<std::size_t>(ground.columns()) + 63) / 64) {
+ProjectedErrorMeter::ProjectedErrorMeter(GroundSamples ground, int threads) : ground_(ground), threads_(threads) {
     assert(threads >= 1);
     for (int row = 0; row < ground.rows(); row += rows_per_band) {
         Band& band = bands_.emplace_back();
@@ -207,7 +199,8 @@ ProjectedError ProjectedErrorMeter::measure(
 }
 
 void ProjectedErrorMeter::measure_band(Band& band, std::span<const std::uint32_t> indices, const Picture& picture) {
-    band.covered.assign(words_per_row_ * static_cast<std::size_t>(band.end_row - band.first_row), 0);
+    band.covered =
+        BitMatrix(static_cast<std::size_t>(band.end_row - band.first_row), static_cast<std::size_t>(ground_.columns()));
     band.errors_px.clear();
     for (std::size_t k = 0; k + 2 < indices.size(); k += 3) {
         const glm::dvec3& a = grid_vertices_[indices[k]];
@@ -230,13 +223,10 @@ void ProjectedErrorMeter::measure_triangle(Band& band, const Corners& corners, c
         const RowInterval part = row_interval(corners, row);
         const int first = std::max(0, static_cast<int>(std::ceil(part.first - row_tolerance)));
         const int last = std::min(ground_.columns() - 1, static_cast<int>(std::floor(part.last + row_tolerance)));
-        std::uint64_t* const covered =
-            band.covered.data() + static_cast<std::size_t>(row - band.first_row) * words_per_row_;
+        const auto band_row = static_cast<std::size_t>(row - band.first_row);
         for (int column = first; column <= last; ++column) {
-            const auto at = static_cast<std::size_t>(column);
-            const std::uint64_t bit = std::uint64_t{1} << (at % 64);
-            if ((covered[at / 64] & bit) != 0) { continue; }
-            covered[at / 64] |= bit;
+            if (band.covered.has(band_row, static_cast<std::size_t>(column))) { continue; }
+            band.covered.add(band_row, static_cast<std::size_t>(column));
             const glm::dvec3 sample_m = picture.sample_m(ground_, column, row);
             const glm::dvec3 seen = view.seen_m(sample_m);
             if (!view.shows(seen)) { continue; }
@@ -251,11 +241,9 @@ void ProjectedErrorMeter::measure_triangle(Band& band, const Corners& corners, c
 void ProjectedErrorMeter::count_uncovered(Band& band, const Picture& picture) const {
     band.uncovered = 0;
     for (int row = band.first_row; row < band.end_row; ++row) {
-        const std::uint64_t* const covered =
-            band.covered.data() + static_cast<std::size_t>(row - band.first_row) * words_per_row_;
+        const auto band_row = static_cast<std::size_t>(row - band.first_row);
         for (int column = 0; column < ground_.columns(); ++column) {
-            const auto at = static_cast<std::size_t>(column);
-            if ((covered[at / 64] >> (at % 64) & 1U) == 0) {
+            if (!band.covered.has(band_row, static_cast<std::size_t>(column))) {
                 const glm::dvec3 sample_m = picture.sample_m(ground_, column, row);
                 band.uncovered += picture.view.shows(picture.view.seen_m(sample_m)) ? 1 : 0;
             }

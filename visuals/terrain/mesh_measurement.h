@@ -1,6 +1,7 @@
 #pragma once
 
 #include "models/colour_vertex.h"
+#include "sim/base/bit_set.h"
 #include "visuals/terrain/ground_mesh.h"
 #include "visuals/terrain/ground_query.h"
 
@@ -101,7 +102,7 @@ private:
     struct Band {
         int first_row = 0;
         int end_row = 0;
-        std::vector<std::uint64_t> covered; ///< One bit for each sample, rows of whole words.
+        BitMatrix covered; ///< One bit for each sample.
         std::vector<float> errors_px;
         std::int64_t uncovered = 0;
     };
@@ -114,7 +115,6 @@ private:
 
     GroundSamples ground_;
     int threads_;
-    std::size_t words_per_row_;
     std::vector<Band> bands_;
     std::vector<float> errors_px_;
     /// The vertices of the mesh: samples east and north, and metres above the eye.

@@ -15,7 +15,6 @@ using models::TriangleMesh;
 using models::measure::distance;
 using models::measure::DistanceOptions;
 using models::measure::flipped_area_share;
-using models::measure::FlippedAreaOptions;
 using models::measure::MeshDistance;
 using models::measure::OneWayDistance;
 using models::measure::TriangleBvh;
@@ -101,8 +100,8 @@ TEST_CASE("a square cut along the other diagonal is still the same square") {
     other.triangles = {{0, 1, 2}, {1, 3, 2}};
     const models::measure::HausdorffBounds bounds =
         models::measure::one_way_hausdorff(square, models::measure::TargetSurface(other), {.negligible_m = 1e-12});
-    CHECK(bounds.min_m == 0.0);
-    CHECK(bounds.max_m < 1e-12);
+    CHECK(bounds.min_hausdorff_m == 0.0);
+    CHECK(bounds.max_hausdorff_m < 1e-12);
     CHECK(bounds.cuts <= 2); // each half at the one edge that it crosses
 }
 
@@ -126,9 +125,9 @@ TEST_CASE("flats cut unlike each other take cuts by their triangles, not by thei
             const models::measure::HausdorffBounds bounds =
                 models::measure::one_way_hausdorff(*from, models::measure::TargetSurface(*to), {.negligible_m = 1e-9});
             INFO(apart_m << " apart, " << bounds.cuts << " cuts");
-            CHECK(bounds.min_m <= apart_m);
-            CHECK(bounds.max_m >= apart_m);
-            CHECK(bounds.max_m <= std::max(1.011 * apart_m, 1.001e-9));
+            CHECK(bounds.min_hausdorff_m <= apart_m);
+            CHECK(bounds.max_hausdorff_m >= apart_m);
+            CHECK(bounds.max_hausdorff_m <= std::max(1.011 * apart_m, 1.001e-9));
             CHECK(bounds.cuts < 20U * 800U);
         }
     }
@@ -139,8 +138,8 @@ TEST_CASE("a large piece over many small triangles takes few cuts") {
     const models::measure::HausdorffBounds bounds = models::measure::one_way_hausdorff(
         tests::plate(1), models::measure::TargetSurface(fine), {.negligible_m = 0.02});
     // A third of a piece of edge 0.1 is about 0.03 long: some 100 of them cover the plate.
-    CHECK(bounds.max_m <= 0.02);
-    CHECK(bounds.max_m >= bounds.min_m);
+    CHECK(bounds.max_hausdorff_m <= 0.02);
+    CHECK(bounds.max_hausdorff_m >= bounds.min_hausdorff_m);
     CHECK(bounds.cuts < 1'500);
 }
 
@@ -162,7 +161,7 @@ TEST_CASE("a thin piece is cut on, however its edges lie") {
     needle.triangles = {{0, 1, 2}};
     const models::measure::HausdorffBounds bounds = models::measure::one_way_hausdorff(
         needle, models::measure::TargetSurface(tests::shaken(tests::plate(9), 5, 0.01)), {});
-    CHECK(bounds.max_m <= 1.0101 * bounds.min_m);
+    CHECK(bounds.max_hausdorff_m <= 1.0101 * bounds.min_hausdorff_m);
     CHECK(bounds.cuts < 2'000);
 }
 
@@ -321,9 +320,7 @@ TEST_CASE("a thin sheet that lies nearer to the other side is not flipped") {
     const TriangleMesh original = sheet(4, 0.01);
     TriangleMesh mesh = sheet(2, 0.002); // its upper side is nearer to the lower side
     CHECK(flipped_area_share(mesh, original) > 0.4);
-    FlippedAreaOptions options;
-    options.reach_m = 0.009;
-    CHECK(flipped_area_share(mesh, original, options) == 0.0);
+    CHECK(flipped_area_share(mesh, original, 0.009) == 0.0);
     const TriangleMesh halfway = sheet(2, 0.0045); // twice the distance reaches the right side
     CHECK(flipped_area_share(halfway, original) == 0.0);
 }
@@ -331,10 +328,8 @@ TEST_CASE("a thin sheet that lies nearer to the other side is not flipped") {
 TEST_CASE("any number of threads finds the same share") {
     const TriangleMesh original = tests::ball(12);
     const TriangleMesh mesh = tests::shaken(tests::ball(20), 4, 0.1);
-    FlippedAreaOptions options;
-    const double share = flipped_area_share(mesh, original, options);
+    const double share = flipped_area_share(mesh, original);
     CHECK(share > 0.0);
     CHECK(share < 0.5);
-    options.threads = 4;
-    CHECK(flipped_area_share(mesh, original, options) == share);
+    CHECK(flipped_area_share(mesh, original, 0.0, {.threads = 4}) == share);
 }

@@ -151,7 +151,7 @@ TEST_CASE("garbage of many kinds does not hide what another sender is, and all o
     CHECK(told_of_cigi_4({2, 1}));
     for (std::uint16_t port = 2; port < 150; ++port) { garbage({1, port}); }
     CHECK(told_of_cigi_4({3, 1}));
-    long counted = traffic.counts().untold;
+    long counted = traffic.counts().unreported;
     for (const PacketReport& report : traffic.packet_reports()) { counted += report.packets; }
     CHECK(counted == 149 * 600 + 2);
 }

@@ -1,5 +1,5 @@
+#include "sim/base/stopwatch.h"
 #include "ui/base/progress.h"
-#include "ui/base/stopwatch.h"
 
 #include <catch2/catch.hpp>
 
@@ -12,8 +12,8 @@ using namespace octant::ui;
 TEST_CASE("time without a processor is that of sleeping, not that of work") {
     constexpr double asleep_ms = 40.0;
     constexpr double at_work_ms = 60.0;
-    const base::Stopwatch wall;
-    const base::OffCpuTimer idle;
+    const octant::Stopwatch wall;
+    const octant::OffCpuTimer idle;
     const std::clock_t begun = std::clock();
     while (static_cast<double>(std::clock() - begun) * 1e3 / CLOCKS_PER_SEC < at_work_ms) {}
     std::this_thread::sleep_for(std::chrono::duration<double, std::milli>(asleep_ms));

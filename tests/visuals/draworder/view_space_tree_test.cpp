@@ -49,8 +49,8 @@ TEST_CASE("bits that two rows share are counted, however long the rows") {
     for (const std::size_t words : {std::size_t{0}, std::size_t{1}, std::size_t{31}, std::size_t{70}}) {
         const std::vector<std::uint64_t> all(words, ~std::uint64_t{0});
         const std::vector<std::uint64_t> ends(words, 0x8000000000000001);
-        CHECK(count_common_bits(all, all) == 64 * words);
-        CHECK(count_common_bits(all, ends) == 2 * words);
+        CHECK(octant::count_common_bits(all, all) == 64 * words);
+        CHECK(octant::count_common_bits(all, ends) == 2 * words);
     }
 }
 
@@ -79,12 +79,12 @@ TEST_CASE("the shortest ring is found, each hidden by the next") {
 
 TEST_CASE("edges on cycles are counted without polygons and pairs that are gone") {
     const std::vector<std::uint32_t> all{0, 1, 2, 3, 4};
-    const PolygonSet none(5);
-    PolygonSet four(5);
+    const octant::BitSet none(5);
+    octant::BitSet four(5);
     four.add(4);
-    PolygonSet one(5);
+    octant::BitSet one(5);
     one.add(1);
-    PolygonSet zero(5);
+    octant::BitSet zero(5);
     zero.add(0);
     CyclicEdgeCounter rings;
     CHECK(rings.count(two_rings(), all, none, none, none) == 5);

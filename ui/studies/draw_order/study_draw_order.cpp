@@ -1,8 +1,8 @@
 #include "ui/studies/draw_order/study_draw_order.h"
 
 #include "sim/base/random_generator.h"
+#include "sim/base/stopwatch.h"
 #include "ui/base/progress.h"
-#include "ui/base/stopwatch.h"
 #include "ui/report/html_text.h"
 #include "ui/settings/settings_text.h"
 #include "ui/studies/draw_order/surface_race.h"
@@ -135,7 +135,7 @@ FrameCost frame_cost(const orderstudy::BspTree& bsp, const draworder::OrderedMod
     std::vector<double> bsp_ns;
     std::vector<double> cell_ns;
     for (int batch = 0; batch < batches; ++batch) {
-        base::Stopwatch watch;
+        Stopwatch watch;
         for (const glm::dvec3& eye_m : eyes_m) {
             painted.clear();
             orderstudy::append_painted(bsp, eye_m, painted, to_do);
@@ -155,7 +155,7 @@ FrameCost frame_cost(const orderstudy::BspTree& bsp, const draworder::OrderedMod
 OrderedByEachMethod order_by_each_method(const std::string& name) {
     const world::OrderModel input = world::load_order_model(name, "right,up,back");
     std::array<double, 3> build_ms{};
-    base::Stopwatch watch;
+    Stopwatch watch;
     draworder::OrderedModel paper = draworder::ordered(input.model, {.method = draworder::OrderMethod::Paper});
     build_ms[0] = watch.lap_ms();
     draworder::OrderedModel cells = orderstudy::ordered_by_cells(input.model);

@@ -1,5 +1,7 @@
 #include "ui/studies/flicker/study_popping.h"
 
+#include "sim/base/nearest_rank.h"
+#include "sim/base/thread_pool.h"
 #include "ui/base/data_files.h"
 #include "ui/base/progress.h"
 #include "ui/flight/session.h"
@@ -313,10 +315,7 @@ Jumps jumps_along(
     return found;
 }
 
-double percentile_px(std::vector<double> jumps_px, int permille) {
-    std::sort(jumps_px.begin(), jumps_px.end());
-    return report::nearest_rank(jumps_px, permille);
-}
+double percentile_px(std::vector<double> jumps_px, int permille) { return nearest_rank(jumps_px, permille); }
 
 /// A built-in path with its ground meshed in one way.
 struct MeshedPath {

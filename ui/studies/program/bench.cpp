@@ -2,6 +2,8 @@
 
 #include "sim/base/error.h"
 #include "sim/base/hash.h"
+#include "sim/base/nearest_rank.h"
+#include "sim/base/stopwatch.h"
 #include "ui/base/json_value.h"
 #include "ui/base/progress.h"
 #include "ui/command_line/setting_option.h"
@@ -179,8 +181,8 @@ public:
 
     report::FrameRecord draw() {
         report::FrameRecord record;
-        const base::Stopwatch whole;
-        base::Stopwatch stage;
+        const Stopwatch whole;
+        Stopwatch stage;
         renderer_->draw(plan_);
         renderer_->finish();
         record.draw_ms = stage.lap_ms();
@@ -272,11 +274,11 @@ std::vector<BenchResult> timed_in_turn(const std::vector<BenchScene>& scenes, co
     base::Progress progress("bench", frames, options.quiet);
     for (int frame = 0; frame < frames; ++frame) {
         const bool counts = frame >= warm_up_frames;
-        double before_ms = 1e3 * base::process_cpu_s();
+        double before_ms = 1e3 * process_cpu_s();
         const auto add = [&](BenchResult& to, const report::FrameRecord& record, const auto& drawn) {
-            const double after_ms = 1e3 * base::process_cpu_s();
+            const double after_ms = 1e3 * process_cpu_s();
             if (counts) { to.add(record, after_ms - before_ms, drawn.picture()); }
-            before_ms = 1e3 * base::process_cpu_s();
+            before_ms = 1e3 * process_cpu_s();
         };
         add(timed[0], floor.draw(), floor);
         for (std::size_t i = 0; i < sessions.size(); ++i) {

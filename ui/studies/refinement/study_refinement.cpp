@@ -2,8 +2,8 @@
 
 #include "models/procedural/procedural_terrain.h"
 #include "models/simplify/simplify.h"
+#include "sim/base/stopwatch.h"
 #include "ui/base/progress.h"
-#include "ui/base/stopwatch.h"
 #include "ui/studies/shading_pictures.h"
 #include "ui/studies/study.h"
 #include "ui/world/mesh_loader.h"
@@ -222,9 +222,9 @@ PathRun run_path(const RefinedModel& model, int frames) {
     SplitWatch watch(refiner.front());
     for (int frame = 1; frame <= frames; ++frame) {
         const refine::RefineView view = path_view(*model, frame, frames);
-        const double start_s = base::process_cpu_s();
+        const double start_s = process_cpu_s();
         const refine::RefinedFrame done = refiner.update(view);
-        run.ms_mean += 1000.0 * (base::process_cpu_s() - start_s) / frames;
+        run.ms_mean += 1000.0 * (process_cpu_s() - start_s) / frames;
         watch.add(refiner, frame);
         const std::size_t operations = done.splits + done.collapses;
         run.operations_mean += static_cast<double>(operations) / frames;
@@ -301,9 +301,9 @@ struct Rates {
 /// Processor time of a call.
 template <class Work>
 double seconds_of(const Work& work) {
-    const double start_s = base::process_cpu_s();
+    const double start_s = process_cpu_s();
     work();
-    return base::process_cpu_s() - start_s;
+    return process_cpu_s() - start_s;
 }
 
 Rates rates_of(const RefinedModel& model) {

@@ -5,10 +5,10 @@
 #include "models/repair/repair.h"
 #include "models/simplify/simplify.h"
 #include "sim/base/error.h"
+#include "sim/base/stopwatch.h"
 #include "sim/base/thread_pool.h"
 #include "ui/base/data_files.h"
 #include "ui/base/progress.h"
-#include "ui/base/stopwatch.h"
 #include "ui/report/child_program.h"
 #include "ui/studies/study.h"
 
@@ -169,7 +169,7 @@ std::vector<PaperRun> paper_runs(
         run.colour = colour;
         run.measure = by;
         run.diagonal_m = mesh.diagonal_m;
-        const base::Stopwatch watch;
+        const Stopwatch watch;
         run.result = simplify::paper_simplified(mesh.original, options);
         run.time_ms = watch.ms();
         run.distance = distance_to(mesh.original, run.result.mesh);
@@ -199,7 +199,7 @@ struct Method {
 template <class Simplify>
 Method own_method(const char* name, const Simplify& simplify) {
     return {name, [simplify](const TriangleMesh& mesh, std::size_t faces) {
-                const base::Stopwatch watch;
+                const Stopwatch watch;
                 TriangleMesh result = simplify(mesh, faces);
                 return TimedMesh{std::move(result), watch.ms()};
             }};

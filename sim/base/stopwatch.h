@@ -4,16 +4,16 @@
 #include <chrono>
 #include <ctime>
 
-namespace octant::ui::base {
+namespace octant {
 
-/// Wall time since it was made or last restarted.
+/// Wall time since its construction or its last lap_ms().
 class Stopwatch {
 public:
     double ms() const { return std::chrono::duration<double, std::milli>(Clock::now() - start_).count(); }
 
     double s() const { return ms() / 1000.0; }
 
-    /// Milliseconds so far; counts from zero again.
+    /// Returns the milliseconds so far and restarts from zero.
     double lap_ms() {
         const auto now = Clock::now();
         const double passed = std::chrono::duration<double, std::milli>(now - start_).count();
@@ -26,13 +26,14 @@ private:
     Clock::time_point start_ = Clock::now();
 };
 
-/// Processor time of this program so far, all threads together.
+/// Processor time of all threads of this program so far.
 inline double process_cpu_s() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
-/// Time since it was made in which the thread that made it had no processor: it waited, or others pushed it aside.
+/// Time since its construction in which the thread that constructed it did not run: it waited, or the processor ran
+/// other threads.
 class OffCpuTimer {
 public:
-    /// On the thread that made it.
+    /// Must be called on the thread that constructed it.
     double ms() const { return std::max(wall_.ms() - (thread_ms() - start_ms_), 0.0); }
 
 private:
@@ -46,4 +47,4 @@ private:
     double start_ms_ = thread_ms();
 };
 
-} // namespace octant::ui::base
+} // namespace octant
