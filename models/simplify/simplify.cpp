@@ -242,12 +242,12 @@ private:
     void search_from(double quadrics_m) {
         const double start_s = process_cpu_s();
         auto kept = std::make_unique<Simplification>(original_, collapsing_);
-        kept->approach({{}, {}, quadrics_m}, original_.triangles.size() / 4);
+        kept->approach({.error_m = quadrics_m}, original_.triangles.size() / 4);
         if (kept->collapses().size() > 1) {
             kept->collapses().erase(kept->collapses().begin(), kept->collapses().end() - 1);
         }
         auto next = std::make_unique<Simplification>(*kept);
-        next->collapse({{}, {}, first_try * error_m_});
+        next->collapse({.error_m = first_try * error_m_});
         result_.collapse_cpu_s += process_cpu_s() - start_s;
         double kept_m = quadrics_m;
         std::size_t too_few = 0;
@@ -371,7 +371,7 @@ Simplified simplified(const TriangleMesh& original, const SimplifyOptions& optio
     Simplified result = simplify_to_count(original, options);
     // Where no edge can collapse any more, the last collapses have mostly folded the surface.
     SimplifyOptions fewer = options;
-    fewer.goal = {{}, result.mesh.triangles.size(), {}};
+    fewer.goal = {.faces = result.mesh.triangles.size()};
     const bool is_stuck = (options.goal.faces && result.mesh.triangles.size() > *options.goal.faces) ||
                           (options.goal.vertices && result.mesh.vertices_m.size() > *options.goal.vertices);
     for (int tries = 0; is_stuck && tries < max_unfolding_tries && is_folded(result.mesh, original); ++tries) {

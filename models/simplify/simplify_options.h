@@ -9,9 +9,9 @@ namespace octant::models::simplify {
 
 /// When to stop: at the first limit that is reached. All empty: when no edge can collapse.
 struct Goal {
-    std::optional<std::size_t> vertices;
-    std::optional<std::size_t> faces;
-    std::optional<double> error_m; ///< Upper limit of the two-sided distance to the original.
+    std::optional<std::size_t> vertices = {};
+    std::optional<std::size_t> faces = {};
+    std::optional<double> error_m = {}; ///< Upper limit of the two-sided distance to the original.
 };
 
 /// The approximate number of triangles after a goal without an error limit.

@@ -23,7 +23,7 @@ using settings::SettingInfo;
 
 namespace {
 
-/// The option of a setting, with the built-in names of those that have some.
+/// The option that reads a setting. The path is the argument without dashes.
 template <class Value>
 Option option_of(const SettingInfo& info, Value& value) {
     return value_option(info, value, info.name == "path" ? "" : "--");

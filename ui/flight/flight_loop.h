@@ -2,6 +2,7 @@
 
 #include "ui/base/json_value.h"
 #include "ui/flight/flight_recorder.h"
+#include "ui/flight/replay.h"
 #include "ui/flight/sender.h"
 #include "ui/flight/session.h"
 #include "ui/settings/settings.h"

@@ -209,7 +209,10 @@ std::string adaptation_text(const StressSettings& stress) {
 } // namespace
 
 report::PixelView pixel_view_of(const visuals::scene::Picture& picture) {
-    return {picture.width, picture.height, 4, std::as_bytes(std::span(picture.rgba)), false};
+    return {.width_px = picture.width,
+        .height_px = picture.height,
+        .channels = 4,
+        .bytes = std::as_bytes(std::span(picture.rgba))};
 }
 
 report::RunInfo run_info(
@@ -271,8 +274,10 @@ FlightRecorder::FlightRecorder(
     : options_(options),
       picture_every_(settings.time.pictures.value_or(std::max(1, static_cast<int>(std::lround(session.rate_hz()))))) {
     if (options.video) {
-        video_.emplace(*options.video,
-            report::VideoFormat{settings.view.size_px.x, settings.view.size_px.y, 4, false, session.rate_hz()});
+        video_.emplace(*options.video, report::VideoFormat{.width_px = settings.view.size_px.x,
+                                           .height_px = settings.view.size_px.y,
+                                           .channels = 4,
+                                           .frames_per_s = session.rate_hz()});
     }
     if (options.folder) {
         report::RunInfo info = run_info(settings, session, *options.folder);

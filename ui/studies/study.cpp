@@ -1,5 +1,6 @@
 #include "ui/studies/study.h"
 
+#include "sim/base/nearest_rank.h"
 #include "sim/base/output_file.h"
 #include "ui/base/progress.h"
 #include "ui/flight/renderer_choice.h"
@@ -58,7 +59,7 @@ std::unique_ptr<flight::Session> session_of(settings::RunSettings settings, cons
 
 double median_of(std::vector<double> values) {
     std::ranges::sort(values);
-    return report::nearest_rank(values, 500);
+    return nearest_rank(values, 500);
 }
 
 TimedFlight draw_in_turn(const Sessions& sessions, const DrawInTurnOptions& options) {

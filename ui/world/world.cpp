@@ -104,7 +104,8 @@ std::vector<std::string> shapes_of(
     return shapes;
 }
 
-/// Throws Error where aircraft that others fly, or the first one, are to do what they cannot.
+/// Throws Error where an aircraft of a live flight has a path of its own, or where the first aircraft begins later than
+/// at 0 s.
 void check_own_paths(const settings::RunSettings& settings, bool is_live) {
     for (std::size_t i = 0; i < settings.path.aircraft.size(); ++i) {
         const settings::AircraftEntry flown = settings::parse_aircraft_entry(settings.path.aircraft[i]);
@@ -122,15 +123,15 @@ std::shared_ptr<const planning::DrawnPath> drawn_path(const PlacedFlight& flight
     return std::make_shared<const planning::DrawnPath>(planning::drawn_path(flight.trajectory, legs));
 }
 
-/// What the tower is placed by; `flight` keeps the states.
-scene::TowerRequest tower_request(const World& world, std::vector<sim::AircraftState>& flight) {
+/// What decides where the tower stands. `states` receives the flown states; the result refers to them.
+scene::TowerRequest tower_request(const World& world, std::vector<sim::AircraftState>& states) {
     constexpr int looks = 160;
     const sim::Trajectory& path = world.flight.trajectory;
     for (int i = 0; i <= looks; ++i) {
-        flight.push_back(path.state_at(glm::mix(path.start_s(), path.end_s(), static_cast<double>(i) / looks)));
+        states.push_back(path.state_at(glm::mix(path.start_s(), path.end_s(), static_cast<double>(i) / looks)));
     }
     const double radius_m = world.scene.model_of(0).subject.radius_m;
-    return {flight, formation_of(world.scene, world.flight).framed_radius_m(radius_m), world.scene.ground->spacing_m(),
+    return {states, formation_of(world.scene, world.flight).framed_radius_m(radius_m), world.scene.ground->spacing_m(),
         world.flight.place_m};
 }
 
@@ -192,8 +193,8 @@ scene::FixedViewpoints fixed_points(const settings::RunSettings& settings, const
     }
     if (settings.view.kind != scene::View::Tower && settings.view.inset != scene::View::Tower) { return points; }
     const GroundHeight ground = [&](double x_m, double y_m) { return world.scene.ground->height_at(x_m, y_m); };
-    std::vector<sim::AircraftState> flight;
-    const scene::TowerRequest request = tower_request(world, flight);
+    std::vector<sim::AircraftState> states;
+    const scene::TowerRequest request = tower_request(world, states);
     const bool placed_by_hand = settings.view.kind == scene::View::Tower && settings.view.eye_m;
     points.tower =
         placed_by_hand ? scene::tower_at(*settings.view.eye_m, request, ground) : scene::tower_for(request, ground);
@@ -223,8 +224,9 @@ World load_world(const settings::RunSettings& settings, RenderDevice device, con
     const AircraftSources inputs =
         aircraft_sources(settings, shapes_of(settings, path ? path->other_aircraft : std::vector<std::string>()));
     // At the same time, because finding a painting order takes one thread. Errors of the aircraft come first.
+    constexpr bool on_two_threads = true;
     auto [aircraft, loaded] = run_both(
-        true,
+        on_two_threads,
         [&] {
             return shared_world != nullptr && shared_world->aircraft.inputs == inputs ? shared_world->aircraft
                                                                                       : load_aircraft(inputs);

@@ -2,6 +2,7 @@
 // space whose polygons hide one another in cycles.
 #include "visuals/draworder/bsp_order.h"
 
+#include "sim/base/bit_set.h"
 #include "visuals/bsp/partial_bsp_tree.h"
 #include "visuals/bsp/polygon_pieces.h"
 #include "visuals/draworder/occlusion.h"
@@ -175,7 +176,7 @@ private:
 
     void add_turning_part(const Polygons& polygons, std::uint32_t pivot) {
         const ModelFaces faces = model_faces(alone(model_, polygons, pivot), glm::dvec3(0.0));
-        PolygonSet all(polygons.size());
+        BitSet all(polygons.size());
         for (std::size_t i = 0; i < polygons.size(); ++i) {
             all.add(i);
             std::vector<glm::dvec3> swept_m;

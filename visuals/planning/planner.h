@@ -41,8 +41,8 @@ public:
     /// work (wait()).
     void set_sun();
 
-    /// Initializes the detail of the ground for a camera where it starts again, as in a new planner. Otherwise the next
-    /// plan does it. Loading work.
+    /// Chooses the first level of detail of the ground for this camera, in a new planner and after apply_settings() has
+    /// reset it; else does nothing. plan() calls it, too: call it while loading, because it takes long.
     void settle_detail(const scene::Camera& camera);
 
     /// Begins to mesh the ground of the next plan() in the background, for its camera and its triangle target. The last

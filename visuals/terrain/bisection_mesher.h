@@ -44,13 +44,13 @@ public:
     BisectionMesher& operator=(BisectionMesher&&) = delete;
     ~BisectionMesher() = default;
 
-    /// The mesh at the smallest error, at or above the target's, for which no larger error gives more triangles than
-    /// the target's; earlier meshes do not influence it. With geomorphs and a budget it is also at or above that of
-    /// HorizonError: where the horizon is not in the picture, the budget may not be used up. The mesh is returned
-    /// again, without work, when view and target are those of the last call. Colours are left to vertices(). Besides
-    /// the vertices of triangles there may be others from whose middle a vertex appears. Vertices and indices stay
-    /// valid until the next mesh but one, so that a mesh can be drawn while the next is made; origins until the next
-    /// mesh.
+    /// The mesh at the smallest error, at or above the target's, at which and above which it has at most the target's
+    /// number of triangles. It does not depend on earlier meshes. With geomorphs and a budget it is also at or above
+    /// that of HorizonError: where the horizon is not in the picture, the budget may not be used up. The mesh is
+    /// returned again, without work, when view and target are those of the last call. Colours are left to vertices().
+    /// Besides the vertices of triangles there may be others from whose middle a vertex appears. Vertices and indices
+    /// stay valid until the next mesh but one, so that a mesh can be drawn while the next is made; morphs until the
+    /// next mesh.
     GroundMesh mesh(const MeshView& view, const ErrorTarget& target);
 
     /// The vertices of the last mesh, so that their colours can be set.
