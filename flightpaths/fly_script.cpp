@@ -2,7 +2,6 @@
 
 #include "flightpaths/limits_check.h"
 #include "flightpaths/manoeuvre.h"
-#include "flightpaths/point_mass.h"
 #include "sim/base/axes.h"
 #include "sim/base/error.h"
 #include "sim/base/units.h"

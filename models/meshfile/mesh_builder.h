@@ -1,7 +1,7 @@
 #pragma once
 
 #include "models/heights/image.h"
-#include "models/meshfile/mesh_file.h"
+#include "models/meshfile/mesh_parts.h"
 #include "models/triangle_mesh.h"
 
 #include <glm/vec2.hpp>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "models/meshfile/mesh_join.h"
+#include "models/meshfile/mesh_parts.h"
 #include "models/polygons/file_axes.h"
 #include "models/triangle_mesh.h"
 
@@ -14,42 +14,6 @@
 #include <vector>
 
 namespace octant::models::meshfile {
-
-/// Options of read_mesh, read_parts and read_rotating_model.
-struct ReadOptions {
-    /// Reads the texture pictures of .ac, .obj and glTF files and computes vertex colours from them: the mean around
-    /// each vertex times the material colour. Not for meshes with vertex colours. Leaves out triangles whose picture is
-    /// mostly transparent (ground shadows, turning propellers, clear glass), unless all triangles are.
-    bool pictures = false;
-    /// Folder searched for pictures before the mesh's own folder; empty: only that one.
-    std::filesystem::path pictures_in = {};
-    /// Adds back faces to two-sided sheets of .ac and glTF files (repair::add_back_faces).
-    bool backs = false;
-    /// Reads objects of .ac files whose names say that they are no surface (propeller discs, light cones, ground
-    /// shadows). They are read anyway if the file has nothing else.
-    bool placeholders = true;
-    /// Names of .ac objects to leave out, with their child objects.
-    std::set<std::string> excluded = {};
-    /// Transforms of .ac objects and their children, by object name; axes of the file. A child's own transform is
-    /// applied before its parent's.
-    std::map<std::string, AffineTransform> moved = {};
-    /// Groups of .ac objects, by name and with their children, that read_parts returns as separate meshes. The
-    /// outermost of nested objects and the first of several groups decide.
-    std::vector<std::set<std::string>> groups = {};
-};
-
-/// Transparent surfaces, such as the glass of canopies.
-struct TransparentSurfaces {
-    TriangleMesh mesh;    ///< may be empty
-    float opacity = 1.0F; ///< mean of the materials, between 0 and 1
-};
-
-/// A mesh in separate parts, any of which may be empty.
-struct MeshParts {
-    TriangleMesh body;                ///< also has the notes of all parts
-    std::vector<TriangleMesh> groups; ///< as ReadOptions::groups
-    TransparentSurfaces clear;
-};
 
 /// Reads a triangle mesh. The file's extension selects the format: .obj (with vertex colours), .ply (ASCII, binary of
 /// both byte orders), .stl (ASCII, binary), .off (ASCII, read only), .gltf and .glb, .ac (AC3D), .wrl (VRML 2.0

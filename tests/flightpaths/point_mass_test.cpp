@@ -1,4 +1,4 @@
-#include "flightpaths/point_mass.h"
+#include "flightpaths/manoeuvre.h"
 #include "sim/base/axes.h"
 #include "sim/base/units.h"
 #include "sim/flight_steps.h"

@@ -9,7 +9,7 @@
 #include "ui/base/progress.h"
 #include "ui/commands/commands.h"
 #include "ui/report/png_file.h"
-#include "ui/world/aircraft_axes.h"
+#include "ui/world/mesh_aircraft.h"
 #include "ui/world/mesh_loader.h"
 
 #include <glm/geometric.hpp>

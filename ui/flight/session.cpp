@@ -3,7 +3,6 @@
 #include "ui/flight/renderer_choice.h"
 #include "ui/report/statistics.h"
 #include "ui/world/scene_ground.h"
-#include "ui/world/sun_at_time.h"
 #include "visuals/landscape/ground_texture_maker.h"
 #include "visuals/scene/camera_rig.h"
 

@@ -12,7 +12,6 @@
 #include "ui/report/kernel_counters.h"
 #include "ui/settings/frame_part.h"
 #include "ui/settings/settings.h"
-#include "ui/world/picture_times.h"
 #include "ui/world/scene_ground.h"
 #include "ui/world/world.h"
 #include "visuals/scene/camera.h"

@@ -3,9 +3,8 @@
 #include "ui/flight/session.h"
 #include "ui/settings/setting_rows.h"
 #include "ui/settings/settings_check.h"
-#include "ui/world/runway_finder.h"
+#include "ui/world/path_placement.h"
 #include "ui/world/scene_ground.h"
-#include "ui/world/sun_at_time.h"
 
 #include <algorithm>
 #include <optional>

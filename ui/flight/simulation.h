@@ -6,7 +6,6 @@
 #include "sim/base/hash.h"
 #include "sim/levelling_autopilot.h"
 #include "sim/piloted_flight.h"
-#include "ui/world/formation.h"
 #include "ui/world/world.h"
 #include "visuals/planning/placed_aircraft.h"
 #include "visuals/scene/camera.h"

@@ -13,7 +13,7 @@
 #include "ui/window/panel_widgets.h"
 #include "ui/window/setting_widgets.h"
 #include "ui/window/view_state.h"
-#include "ui/world/sun_at_time.h"
+#include "ui/world/scene_ground.h"
 #include "visuals/scene/settings.h"
 
 #include <glm/common.hpp>

@@ -18,7 +18,7 @@
 #include "ui/window/panels.h"
 #include "ui/window/view_state.h"
 #include "ui/world/input_files.h"
-#include "ui/world/sun_at_time.h"
+#include "ui/world/scene_ground.h"
 #include "visuals/gl/gl_renderer.h"
 #include "visuals/gl/picture_painter.h"
 #include "visuals/gl/window_context.h"

@@ -1,6 +1,6 @@
 #include "ui/world/height_loader.h"
 
-#include "models/heights/height_field_import.h"
+#include "models/heights/height_source.h"
 #include "models/heights/map_inputs.h"
 #include "models/procedural/procedural_terrain.h"
 #include "sim/base/binary_file.h"

@@ -2,7 +2,9 @@
 
 #include "models/meshfile/level_chain.h"
 #include "models/meshfile/mesh_file.h"
+#include "models/polygons/file_axes.h"
 #include "models/polygons/polygon_model.h"
+#include "models/triangle_mesh.h"
 #include "visuals/planning/aircraft_model.h"
 #include "visuals/refine/progressive_mesh.h"
 
@@ -12,6 +14,30 @@
 #include <vector>
 
 namespace octant::ui::world {
+
+/// Where the axes of an aircraft's file point, and how that is known.
+struct AircraftAxes {
+    /// Default: the shape does not say; the axes are those that scenes of the format mostly have, else x right, y up, z
+    /// back.
+    enum class AxesSource { Given, Format, Guess, Default };
+
+    models::polygons::FileAxes axes;
+    AxesSource source = AxesSource::Default;
+};
+
+/// The setting --axes: "auto", or directions such as "right,up,back". With "auto" the format decides, then the shape,
+/// whose top is towards +z where the format says so. `mesh` is the aircraft in its file's axes. Throws Error.
+AircraftAxes aircraft_axes(
+    const std::string& setting, const std::filesystem::path& file, const models::TriangleMesh& mesh);
+
+/// Throws Error unless it is "auto" or directions that aircraft_axes takes.
+void check_axes(const std::string& setting);
+
+/// "nose towards -x, up +y: guessed from the shape".
+std::string axes_text(const AircraftAxes& axes);
+
+/// Appends a note where nose and top were found, unless the setting or the format says it.
+void note_axes(const AircraftAxes& axes, const std::filesystem::path& file, std::vector<std::string>& notes);
 
 /// An aircraft of a mesh file, in body axes: levels of detail or a vertex hierarchy, and polygons for far away.
 struct MeshAircraft {

@@ -1,27 +1,146 @@
 #include "ui/world/path_placement.h"
 
+#include "flightpaths/acmi_recording.h"
 #include "flightpaths/derived_motion.h"
+#include "flightpaths/path_script.h"
 #include "flightpaths/placement.h"
+#include "flightpaths/recorded_track.h"
+#include "models/heights/height_field.h"
 #include "models/heights/height_source.h"
 #include "models/heights/local_frame.h"
 #include "models/heights/map_inputs.h"
+#include "sim/aircraft_kind.h"
 #include "sim/aircraft_state.h"
+#include "sim/base/axes.h"
 #include "sim/base/error.h"
 #include "sim/base/text_file.h"
 #include "sim/base/units.h"
+#include "ui/base/data_files.h"
+#include "ui/report/zip_file.h"
+#include "ui/settings/aircraft_entry.h"
 #include "ui/settings/settings_check.h"
 #include "ui/world/height_loader.h"
 #include "visuals/groundfile/ground_file.h"
+#include "visuals/nature/runway.h"
 
+#include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <filesystem>
 #include <fmt/format.h>
+#include <limits>
+#include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 namespace octant::ui::world {
+
+namespace fs = std::filesystem;
+
+std::string path_of(const settings::RunSettings& settings) {
+    return settings::parse_aircraft_entry(settings.path.aircraft.front()).path.value_or(settings.path.name);
+}
+
+namespace {
+
+/// Lowest clearance of a recorded track that is lifted over ground: it names none itself.
+constexpr double track_clearance_m = 50.0;
+
+const sim::AircraftKind& aircraft_kind_of_path(const flightpaths::PathScript& script) {
+    try {
+        return sim::aircraft_kind(script.aircraft);
+    } catch (const Error& fault) { throw_error_at(script.file, script.aircraft_line, fault.what()); }
+}
+
+/// Notes that an aircraft of unknown type flies a built-in path within the limits of another type.
+void note_what_flies(const std::string& path, const std::string& shape, const sim::AircraftKind& flown,
+    std::vector<std::string>& notes) {
+    const bool is_built_in = std::ranges::find(base::built_in_paths, path) != base::built_in_paths.end();
+    if (is_built_in && sim::find_aircraft_kind(shape) == nullptr) {
+        notes.push_back(fmt::format("{} flies the {} path of {}, within its limits: only its own shape is known",
+            printable(std::filesystem::path(shape).filename().string()), path, flown.name));
+    }
+}
+
+double mean_rate_hz(const sim::Trajectory& trajectory) {
+    const auto steps = static_cast<double>(trajectory.samples().size() - 1);
+    return 1.0 / ((trajectory.end_s() - trajectory.start_s()) / steps);
+}
+
+LoadedPath from_track(flightpaths::RecordedTrack track, const std::string& shape) {
+    const double rate_hz = mean_rate_hz(track.trajectory);
+    const sim::AircraftKind* kind = sim::find_aircraft_kind(shape);
+    return {std::move(track.trajectory), rate_hz, track_clearance_m,
+        kind == nullptr ? std::nullopt : std::optional(kind->limits), track.origin, {}, std::move(track.notes), {}, {},
+        false};
+}
+
+/// The text of an ACMI recording, or of the first one in a zip file.
+std::string acmi_text(const fs::path& file) {
+    constexpr std::size_t max_bytes = std::size_t{256} << 20;
+    const std::string bytes = read_file(file, max_bytes);
+    if (!bytes.starts_with("PK")) { return bytes; }
+    const std::vector<report::ZipEntry> entries = report::zip_entries(file);
+    const auto recording = std::ranges::find_if(entries, [](const report::ZipEntry& entry) {
+        return extension_of(entry.name) == ".acmi" || extension_of(entry.name) == ".txt";
+    });
+    if (recording == entries.end() || recording->bytes > max_bytes) {
+        throw_error_in(file, "expected an ACMI recording of at most 256 MiB in it (.acmi), got none");
+    }
+    return report::zip_text(file, recording->name, max_bytes);
+}
+
+/// The known aircraft that has this type in Tacview, the first one for any other.
+const sim::AircraftKind& aircraft_for_type(const std::string& type) {
+    const auto tags = split_fields(type, '+');
+    const auto kinds = sim::aircraft_kinds();
+    const auto same = std::ranges::find_if(kinds, [&](const sim::AircraftKind& kind) {
+        const auto wanted = split_fields(kind.tacview_type, '+');
+        return std::ranges::all_of(
+            wanted, [&](std::string_view tag) { return std::ranges::find(tags, tag) != tags.end(); });
+    });
+    return same == kinds.end() ? kinds.front() : *same;
+}
+
+/// Says which aircraft of the recording is the first one, and as what it is shown.
+std::string note_of(const flightpaths::RecordedAircraft& first, const std::string& shape) {
+    const std::string_view type_name = aircraft_for_type(first.type).name;
+    return fmt::format("{}{}{} is followed, as {}{}", printable(first.name.empty() ? "an aircraft" : first.name),
+        first.type.empty() ? "" : ", ", printable(first.type), printable(shape),
+        shape == type_name ? "" : fmt::format("; --aircraft {} is of its type", type_name));
+}
+
+LoadedPath from_tacview(const fs::path& file, const std::string& shape) {
+    flightpaths::AcmiRecording recording = flightpaths::parse_acmi(acmi_text(file), file);
+    LoadedPath loaded = from_track({std::move(recording.aircraft.front().trajectory), recording.origin, {}}, shape);
+    loaded.is_acmi_recording = true;
+    loaded.notes = std::move(recording.notes);
+    loaded.notes.push_back(note_of(recording.aircraft.front(), shape));
+    for (std::size_t i = 1; i < recording.aircraft.size(); ++i) {
+        loaded.other_trajectories.push_back(std::move(recording.aircraft[i].trajectory));
+        loaded.other_aircraft.emplace_back(aircraft_for_type(recording.aircraft[i].type).name);
+    }
+    return loaded;
+}
+
+} // namespace
+
+LoadedPath load_path(const std::string& path, const std::string& shape, bool lenient) {
+    const fs::path file = base::path_file(path, shape);
+    if (extension_of(file) == ".acmi") { return from_tacview(file, shape); }
+    if (file.extension() != ".toml") { return from_track(flightpaths::read_recorded_track(file), shape); }
+    const flightpaths::PathScript script = flightpaths::read_path_script(file);
+    const sim::AircraftKind& kind = aircraft_kind_of_path(script);
+    flightpaths::FlownPath flown = flightpaths::fly(script, kind, lenient);
+    note_what_flies(path, shape, kind, flown.notes);
+    return {std::move(flown.trajectory), static_cast<double>(script.rate_hz), script.min_clearance_m, kind.limits, {},
+        std::move(flown.legs), std::move(flown.notes), {}, {}, false};
+}
 
 namespace {
 
@@ -262,6 +381,86 @@ sim::Trajectory own_path(const settings::RunSettings& settings, const settings::
     flightpaths::PlacedPath path = placed_by_name(*flown.path, loaded, placement, ground);
     add(notes, path.notes);
     return starting_at_time(path.trajectory, first.trajectory.start_s() + flown.from_s);
+}
+
+namespace heights = models::heights;
+
+namespace {
+
+PlacementGround placement_ground(const heights::HeightField& field) {
+    return {[&field](double x_m, double y_m) { return field.height_at(x_m, y_m); }, field.half_extent_m(),
+        heights::frame_of_ground(field.system, field.place)};
+}
+
+/// Below the beginning of a path, along the way its aircraft looks there, or near the first 15 km.
+heights::RunwayRequest runway_request_of(const sim::Trajectory& path, double water_m) {
+    constexpr double step_m = 500.0;
+    constexpr std::size_t max_places = 31;
+    const sim::AircraftState& first = path.samples().front();
+    const glm::dvec3 ahead = first.body_to_world * glm::dvec3(1.0, 0.0, 0.0);
+    heights::RunwayRequest request;
+    request.path_m.emplace_back(first.position_m);
+    for (const sim::AircraftState& state : path.samples()) {
+        const glm::dvec2 place_m(state.position_m);
+        if (request.path_m.size() < max_places && glm::distance(request.path_m.back(), place_m) >= step_m) {
+            request.path_m.push_back(place_m);
+        }
+    }
+    request.heading_rad = std::atan2(ahead.x, ahead.y);
+    request.water_m = water_m;
+    return request;
+}
+
+/// Throws Error for a site that is none, or too rough.
+void check_site(const std::optional<heights::RunwaySite>& site) {
+    const std::string expected =
+        fmt::format("--airfield: expected ground within {:.0f} km of the path on which a runway of 1,800 m "
+                    "needs cuttings and embankments of at most {:.0f} m",
+            heights::runway_search_radius_m / 1000.0, heights::max_earthwork_m);
+    if (!site) { throw Error(fmt::format("{}, got only water or the edge of the map", expected)); }
+    if (site->earthwork_m > heights::max_earthwork_m) {
+        throw Error(fmt::format("{}, got {:.0f} m at best; another --place may do", expected, site->earthwork_m));
+    }
+}
+
+std::string note_of(const heights::RunwaySite& site, const heights::RunwayRequest& request) {
+    const std::array<std::string, 2> numbers = visuals::nature::runway_numbers(site.strip.heading_rad);
+    std::string where = "where the path begins";
+    if (!site.matches_request) {
+        const glm::dvec2 way_m = site.strip.place({0.5 * site.strip.length_m, 0.0}) - request.path_m.front();
+        const double bearing_deg = deg_from_rad(std::atan2(way_m.x, way_m.y));
+        where = fmt::format("{:.1f} km from where the path begins, at {:03.0f} degrees, as rough ground, water "
+                            "or the map's edge is in its way there",
+            glm::length(way_m) / 1000.0, bearing_deg < 0.0 ? bearing_deg + 360.0 : bearing_deg);
+    }
+    return fmt::format("airfield: runway {}/{} lies {}; its cuttings and embankments are up to {:.0f} m high",
+        numbers[0], numbers[1], where, site.earthwork_m);
+}
+
+} // namespace
+
+RunwayFinder make_runway_finder(const settings::RunSettings& settings, const std::optional<LoadedPath>& script,
+    std::optional<PathPlacement>& given_placement) {
+    if (!settings.ground.airfield) { return nullptr; }
+    return [&](const heights::HeightField& field, std::vector<std::string>& notes) {
+        std::vector<std::string> unused; // placing the path on the levelled ground gives the same notes again
+        const PlacementGround ground = placement_ground(field);
+        const PlacedFlight first =
+            script ? place_flight(settings, *script, ground, unused) : live_flight(settings, ground);
+        given_placement = {first.place_m, first.heading_rad};
+        const bool has_water = ellipsoid_below(field.place).is_earth();
+        const heights::RunwayRequest request = runway_request_of(
+            first.trajectory, has_water ? settings.air.water_level_m : -std::numeric_limits<double>::infinity());
+        const auto site = heights::runway_site(field, request);
+        check_site(site);
+        notes.push_back(note_of(*site, request));
+        return site->strip;
+    };
+}
+
+RunwayFinder fixed_runway_finder(std::shared_ptr<const heights::RunwayStrip> runway) {
+    if (!runway) { return nullptr; }
+    return [runway = std::move(runway)](const heights::HeightField&, std::vector<std::string>&) { return *runway; };
 }
 
 } // namespace octant::ui::world

@@ -1,12 +1,13 @@
 #pragma once
 
 #include "flightpaths/fly_script.h"
+#include "models/heights/runway_strip.h"
+#include "sim/aircraft_state.h"
 #include "sim/base/axes.h"
 #include "sim/base/earth_frame.h"
 #include "sim/trajectory.h"
 #include "ui/settings/aircraft_entry.h"
 #include "ui/settings/settings.h"
-#include "ui/world/path_loader.h"
 #include "ui/world/scene_ground.h"
 
 #include <glm/vec2.hpp>
@@ -19,6 +20,30 @@
 #include <vector>
 
 namespace octant::ui::world {
+
+/// A path or a recorded track as its file gives it, before it is placed over ground.
+struct LoadedPath {
+    sim::Trajectory trajectory;
+    double rate_hz = 0.0;
+    double min_clearance_m = 0.0;
+    /// Of the aircraft, where its type is known.
+    std::optional<sim::AircraftLimits> limits;
+    /// Geographic origin of a track with positions; its axes are those of the TransverseMercator frame there.
+    std::optional<GeoPosition> origin;
+    std::vector<flightpaths::LegStart> legs;
+    std::vector<std::string> notes;
+    /// The other aircraft of an ACMI recording, in the axes and on the clock of the first one, and the built-in
+    /// aircraft that shows each of them.
+    std::vector<sim::Trajectory> other_trajectories;
+    std::vector<std::string> other_aircraft;
+    bool is_acmi_recording = false;
+};
+
+/// Loads a path by its name or file for an aircraft of this shape. Throws Error.
+LoadedPath load_path(const std::string& path, const std::string& shape, bool lenient);
+
+/// The first aircraft's path: its own, or that of the settings.
+std::string path_of(const settings::RunSettings& settings);
 
 /// The paths of all aircraft of a run over its ground: the first one's, and those of aircraft with a path of their own.
 struct PlacedFlight {
@@ -83,5 +108,14 @@ PlacedFlight place_flight(const settings::RunSettings& settings, LoadedPath load
 sim::Trajectory own_path(const settings::RunSettings& settings, const settings::AircraftEntry& flown,
     const glm::dvec2& begin_m, const PlacementGround& ground, const PlacedFlight& first,
     std::vector<std::string>& notes);
+
+/// Finds the runway of a run where its first aircraft begins, along its heading, or near there; null where the settings
+/// ask for none. `script`: nothing where others fly the aircraft. When the finder runs it sets `given_placement` to
+/// where the path lies over the ground that is not levelled yet. All arguments must outlive the finder.
+RunwayFinder make_runway_finder(const settings::RunSettings& settings, const std::optional<LoadedPath>& script,
+    std::optional<PathPlacement>& given_placement);
+
+/// A finder that returns this runway; null if it is null.
+RunwayFinder fixed_runway_finder(std::shared_ptr<const models::heights::RunwayStrip> runway);
 
 } // namespace octant::ui::world

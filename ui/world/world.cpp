@@ -6,24 +6,139 @@
 #include "sim/base/axes.h"
 #include "sim/base/error.h"
 #include "sim/base/thread_pool.h"
+#include "sim/trajectory.h"
 #include "ui/settings/aircraft_entry.h"
 #include "ui/settings/settings_check.h"
 #include "ui/world/aircraft_loader.h"
-#include "ui/world/formation.h"
 #include "ui/world/path_placement.h"
-#include "ui/world/runway_finder.h"
 #include "ui/world/scene_ground.h"
-#include "ui/world/sun_at_time.h"
 
 #include <glm/common.hpp>
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <fmt/format.h>
 #include <utility>
 #include <vector>
 
 namespace octant::ui::world {
+
+using settings::RunSettings;
+
+namespace {
+
+double first_time_s(const RunSettings& settings, const sim::Trajectory& path) {
+    const double length_s = path.end_s() - path.start_s();
+    if (settings.time.start_s > 0.0 && settings.time.start_s >= length_s) {
+        throw Error(
+            fmt::format("--start: expected less than the path's {} s, got {}", length_s, settings.time.start_s));
+    }
+    return path.start_s() + settings.time.start_s;
+}
+
+} // namespace
+
+void PictureTimes::truncate_to(std::size_t frames) {
+    if (frames < times_s.size()) {
+        times_s.resize(frames);
+        last_step_s = times_s.back();
+    }
+}
+
+PictureTimes picture_times_of(const RunSettings& settings, const PlacedFlight& flight) {
+    const sim::Trajectory& path = flight.trajectory;
+    const double from_s = first_time_s(settings, path);
+    PictureTimes times;
+    times.rate_hz = settings.time.frame_per_sample ? flight.rate_hz : settings.time.rate_hz;
+    times.last_step_s = settings.time.seconds ? std::min(path.end_s(), from_s + *settings.time.seconds) : path.end_s();
+    if (settings.time.frame_per_sample) {
+        const double half_frame_s = 0.5 / times.rate_hz;
+        for (const sim::AircraftState& sample : path.samples()) {
+            if (sample.time_s >= from_s && sample.time_s <= times.last_step_s + half_frame_s) {
+                times.times_s.push_back(sample.time_s);
+            }
+        }
+    } else {
+        const auto count = static_cast<long>(std::floor((times.last_step_s - from_s) * times.rate_hz + 1e-6)) + 1;
+        for (long frame = 0; frame < count; ++frame) {
+            times.times_s.push_back(from_s + static_cast<double>(frame) / times.rate_hz);
+        }
+    }
+    if (settings.time.frames) { times.truncate_to(static_cast<std::size_t>(*settings.time.frames)); }
+    return times;
+}
+
+namespace planning = visuals::planning;
+
+namespace {
+
+constexpr int max_abreast = 9;
+
+int aircraft_abreast(int aircraft) {
+    return aircraft <= max_abreast ? aircraft
+                                   : static_cast<int>(std::ceil(std::cbrt(static_cast<double>(aircraft)) - 1e-9));
+}
+
+} // namespace
+
+Formation::Formation(int aircraft, double largest_radius_m)
+    : abreast_(aircraft_abreast(aircraft)), lines_per_layer_(aircraft <= max_abreast ? 1 : abreast_),
+      wingmen_per_side_(abreast_ / 2), lateral_spacing_m_(1.7 * largest_radius_m),
+      trail_spacing_m_(0.5 * largest_radius_m) {}
+
+sim::AircraftState Formation::wingman_state(const sim::AircraftState& leader, int number) const {
+    const int place = number % abreast_;
+    const int line = number / abreast_ % lines_per_layer_;
+    const int layer = number / abreast_ / lines_per_layer_;
+    const double rank = (place + 1) / 2; // NOLINT(bugprone-integer-division): whole ranks
+    const double side = place % 2 == 1 ? 1.0 : -1.0;
+    const double heading_rad = euler_from_body_to_world(leader.body_to_world).heading_rad;
+    const glm::dvec3 ahead = direction_from_heading(heading_rad);
+    const glm::dvec3 right(ahead.y, -ahead.x, 0.0);
+    sim::AircraftState state = leader;
+    state.position_m += rank * (side * lateral_spacing_m_ * right - trail_spacing_m_ * ahead);
+    state.position_m += glm::dvec3(0.0, 0.0, line * lateral_spacing_m_) - layer * 2.0 * lateral_spacing_m_ * ahead;
+    return state;
+}
+
+double Formation::framed_radius_m(double leader_radius_m) const {
+    // The camera stands three radii behind and sees a little more than a third of a right angle to either side.
+    constexpr double distances_per_aside = 2.2;
+    const double distance_m = wingmen_per_side_ * (distances_per_aside * lateral_spacing_m_ + trail_spacing_m_);
+    return std::max(leader_radius_m, distance_m / 3.0);
+}
+
+double largest_radius_m(const planning::Scene& scene) {
+    double largest_m = 0.0;
+    for (const std::uint32_t model : scene.aircraft) {
+        largest_m = std::max(largest_m, scene.models[model]->subject.radius_m);
+    }
+    return largest_m;
+}
+
+Formation formation_of(const planning::Scene& scene, const PlacedFlight& flight) {
+    const std::size_t own = std::min(flight.other_trajectories.size(), scene.aircraft.size() - 1);
+    return {static_cast<int>(scene.aircraft.size() - own), largest_radius_m(scene)};
+}
+
+void formation_states(const PlacedFlight& flight, const Formation& formation, const sim::AircraftState& leader,
+    double time_s, std::span<sim::AircraftState> states) {
+    states.front() = leader;
+    int number = 0;
+    for (std::size_t i = 1; i < states.size(); ++i) {
+        const auto own = flight.other_trajectories.find(i);
+        if (own == flight.other_trajectories.end()) {
+            states[i] = formation.wingman_state(leader, ++number);
+            continue;
+        }
+        const sim::Trajectory& path = own->second;
+        states[i] = path.state_at(time_s);
+        states[i].time_s = leader.time_s;
+        states[i].is_present = time_s >= path.start_s() && time_s <= path.end_s();
+    }
+}
 
 namespace planning = visuals::planning;
 namespace scene = visuals::scene;

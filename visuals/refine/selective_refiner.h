@@ -1,8 +1,8 @@
 #pragma once
 
-#include "visuals/refine/active_leaf_set.h"
 #include "visuals/refine/face_lists.h"
 #include "visuals/refine/progressive_mesh.h"
+#include "visuals/refine/progressive_tree.h"
 
 #include <glm/vec3.hpp>
 

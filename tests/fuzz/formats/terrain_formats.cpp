@@ -1,6 +1,6 @@
 // Maps, ground files, and the points that terrain tools read.
 #include "models/heights/height_field_export.h"
-#include "models/heights/height_field_import.h"
+#include "models/heights/height_source.h"
 #include "sim/base/hash.h"
 #include "tests/fuzz/formats/target.h"
 #include "ui/terrain/ground_view.h"

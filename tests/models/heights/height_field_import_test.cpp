@@ -1,5 +1,5 @@
 #include "models/heights/height_field_export.h"
-#include "models/heights/height_field_import.h"
+#include "models/heights/height_source.h"
 #include "sim/base/error.h"
 #include "sim/base/output_file.h"
 #include "sim/base/text_file.h"

@@ -1,4 +1,4 @@
-#include "models/heights/height_field_import.h"
+#include "models/heights/height_source.h"
 #include "models/heights/image.h"
 #include "tests/models/heights/sample_maps.h"
 

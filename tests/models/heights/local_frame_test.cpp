@@ -1,6 +1,6 @@
 #include "models/heights/gdal_session.h"
 #include "models/heights/height_field_export.h"
-#include "models/heights/height_field_import.h"
+#include "models/heights/height_source.h"
 #include "models/heights/local_frame.h"
 #include "sim/base/axes.h"
 #include "sim/base/earth_frame.h"

@@ -1,5 +1,4 @@
 #include "models/heights/gdal_session.h"
-#include "models/heights/height_field_import.h"
 #include "models/heights/height_source.h"
 #include "sim/base/error.h"
 #include "tests/models/heights/sample_maps.h"
@@ -13,6 +12,7 @@
 #include <fmt/format.h>
 #include <fstream>
 #include <sstream>
+#include <utility>
 
 using namespace octant;
 using namespace octant::models::heights;

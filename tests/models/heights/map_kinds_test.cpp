@@ -1,5 +1,5 @@
 #include "models/heights/gdal_session.h"
-#include "models/heights/height_field_import.h"
+#include "models/heights/height_source.h"
 #include "models/heights/local_frame.h"
 #include "models/heights/map_inputs.h"
 #include "tests/models/heights/sample_maps.h"

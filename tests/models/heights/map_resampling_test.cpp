@@ -1,4 +1,3 @@
-#include "models/heights/height_field_import.h"
 #include "models/heights/height_source.h"
 #include "models/heights/local_frame.h"
 #include "models/heights/map_inputs.h"

@@ -3,7 +3,6 @@
 
 #include "models/heights/gdal_session.h"
 #include "models/heights/height_band.h"
-#include "models/heights/height_field_import.h"
 #include "models/heights/height_source.h"
 #include "models/heights/height_voids.h"
 #include "models/heights/map_inputs.h"
@@ -19,6 +18,7 @@
 #include <fstream>
 #include <thread>
 #include <unistd.h>
+#include <utility>
 
 using namespace octant;
 using namespace octant::models;

@@ -6,7 +6,6 @@
 #include "tests/ui/world/user_cache.h"
 #include "ui/world/aircraft_loader.h"
 #include "ui/world/mesh_loader.h"
-#include "ui/world/order_cache_folder.h"
 
 #include <catch2/catch.hpp>
 

@@ -5,7 +5,6 @@
 #include "sim/base/units.h"
 #include "tests/scratch.h"
 #include "ui/world/path_placement.h"
-#include "ui/world/runway_finder.h"
 #include "ui/world/world.h"
 
 #include <catch2/catch.hpp>

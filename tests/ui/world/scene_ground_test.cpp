@@ -4,7 +4,6 @@
 #include "tests/scratch.h"
 #include "tests/ui/world/user_cache.h"
 #include "ui/world/scene_ground.h"
-#include "ui/world/sun_at_time.h"
 
 #include <catch2/catch.hpp>
 

@@ -9,8 +9,6 @@
 #include "tests/scratch.h"
 #include "ui/base/data_files.h"
 #include "ui/settings/settings.h"
-#include "ui/world/formation.h"
-#include "ui/world/picture_times.h"
 #include "ui/world/scene_ground.h"
 #include "ui/world/world.h"
 #include "visuals/landscape/ground.h"

@@ -1,4 +1,4 @@
-#include "visuals/refine/active_leaf_set.h"
+#include "visuals/refine/progressive_tree.h"
 #include "visuals/refine/selective_refiner.h"
 
 #include <catch2/catch.hpp>

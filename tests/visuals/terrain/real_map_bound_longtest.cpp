@@ -1,4 +1,4 @@
-#include "models/heights/height_field_import.h"
+#include "models/heights/height_source.h"
 #include "tests/real_files.h"
 #include "tests/visuals/terrain/pixel_errors.h"
 #include "visuals/terrain/bisection_ground_builder.h"

@@ -9,7 +9,6 @@
 #include "ui/terrain/ground_view.h"
 #include "ui/terrain/mesh_maker.h"
 #include "ui/world/height_loader.h"
-#include "ui/world/picture_times.h"
 #include "ui/world/world.h"
 #include "visuals/landscape/ground.h"
 #include "visuals/scene/camera_rig.h"
