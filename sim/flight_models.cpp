@@ -1,7 +1,6 @@
 #include "sim/flight_models.h"
 
 #include "sim/base/units.h"
-#include "sim/fixed_wing_aero.h"
 #include "sim/fixed_wing_flight.h"
 #include "sim/helicopter_flight.h"
 

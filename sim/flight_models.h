@@ -20,7 +20,7 @@ AircraftState trimmed_state(
 
 /// How much of its reheat an aircraft burns in this motion: 0 = dry thrust does, 1 = all of it. The thrust follows from
 /// the energy, T = D + m (dV/dt + g sin(climb)): E. S. Rutowski, "Energy Approach to the General Aircraft Performance
-/// Problem", J. Aeronautical Sciences 21(3), 1954, with the drag, mass and engines of the kind (fixed_wing_aero.cpp
+/// Problem", J. Aeronautical Sciences 21(3), 1954, with the drag, mass and engines of the kind (fixed_wing_flight.cpp
 /// names their sources) in still standard air. Null, a shape of which nothing is known, counts as the F-15. Helicopters
 /// have none.
 double reheat_fraction(const AircraftKind* kind, const AircraftState& state);
