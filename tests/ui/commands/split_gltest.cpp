@@ -77,7 +77,7 @@ void check_same(const fs::path& whole, const fs::path& merged, std::size_t frame
     for (const auto* recording : {&one, &other}) { // each has those of its own slowest frames
         for (std::size_t i = 0; i < std::min(slow_pictures, recording->slowest.size()); ++i) {
             const int frame = recording->slowest[i].record.frame;
-            const auto file = recording->folder / ui::report::slow_picture_name(frame);
+            const auto file = recording->folder.path / ui::report::slow_picture_name(frame);
             CHECK(fs::exists(file) == !one.pictures.empty());
         }
     }
