@@ -47,7 +47,6 @@ struct RefineOptions : base::OutputOptions, settings::EyeView {
     std::string nodes;
     std::string partition;
     std::string colour_by = "none";
-    bool json = false;
 };
 
 constexpr std::size_t region_words = 5; ///< sphere X Y Z RADIUS

@@ -34,22 +34,19 @@ namespace octant::ui::studies::flicker {
 
 namespace {
 
-// Source: E. K. Choi, B. S. Shin, "A Quadtree-Based CLOD Method that Minimize
-// Flickering Effect", section 4: fixed view and 1000 frames along a path;
-// figures 3, 5, 6, 8 and 9. Deviations: the paper gives neither eye points nor
-// a target; both are chosen here by rules that fit any field. A frame at a
-// fixed view with the C of the frame before is not made again. Figures 8 and 9
-// are called 7 and 8 in the paper's text. Figure 3 is a pair of pictures there;
-// what it counts is plotted here.
+// Source: E. K. Choi, B. S. Shin, "A Quadtree-Based CLOD Method that Minimize Flickering Effect", section 4: fixed view
+// and 1000 frames along a path; figures 3, 5, 6, 8 and 9. Deviations: the paper gives neither eye points nor a target;
+// both are chosen here by rules that fit any field. A frame at a fixed view with the C of the frame before is not made
+// again. Figures 8 and 9 are called 7 and 8 in the paper's text. Figure 3 is a pair of pictures there; what it counts
+// is plotted here.
 
 namespace terrain = visuals::terrain;
 using models::heights::HeightField;
 
 // Runs of the controls.
 
-/// A height field under the paper's quadtree with literal roughness and
-/// crack-free propagation, K = 0.5 + 0.79 / C_min, and under the default mesh.
-/// Stays where it is.
+/// A height field under the paper's quadtree with literal roughness and crack-free propagation, K = 0.5 + 0.79 / C_min,
+/// and under the default mesh. Stays where it is.
 struct FlickerGround {
     explicit FlickerGround(models::heights::HeightField made)
         : field(std::move(made)), tree(field, {.roughness = terrain::Roughness::Printed}),
@@ -80,8 +77,7 @@ struct CountedFrame {
     int triangles = 0;
     int fans = 0;
     double resolution = 0.0; ///< C; 0 for a way that has none
-    /// The N'(C) that the control uses, triangles per unit of C; 0 for a method
-    /// without it.
+    /// The N'(C) that the control uses, triangles per unit of C; 0 for a method without it.
     double estimated_gain = 0.0;
 };
 
@@ -173,8 +169,7 @@ CountNextFrame exact(FlickerGround& ground, const FlickerSettings& settings) {
     };
 }
 
-/// As flights are drawn by default, but for the error below which they leave
-/// triangles unused.
+/// As flights are drawn by default, but for the error below which they leave triangles unused.
 CountNextFrame by_screen_error(FlickerGround& ground, const FlickerSettings& settings) {
     const terrain::ErrorTarget target{.error_px = 0.0, .max_triangles = settings.target_triangles, .geomorphs = true};
     return [&ground, target](const terrain::MeshView& view) {
@@ -217,8 +212,8 @@ double gain_at(FlickerGround& ground, const terrain::MeshView& view, double weig
     return terrain::triangle_count_slope(ground.mesher, view, {.resolution = resolution, .roughness_weight = weight});
 }
 
-/// A view 300 m above the ground, pitched 6 degrees down: of 25 positions and
-/// eight headings, the one in which the paper's rule makes most triangles at c
+/// A view 300 m above the ground, pitched 6 degrees down: of 25 positions and eight headings, the one in which the
+/// paper's rule makes most triangles at c
 /// = 5 and C = 16. Aspect 16:9, field of view 45 degrees.
 terrain::MeshView roughest_view(FlickerGround& ground) {
     const glm::dvec2 quarter_m = 0.25 * ground.field.half_extent_m();
@@ -239,8 +234,8 @@ terrain::MeshView roughest_view(FlickerGround& ground) {
     return roughest;
 }
 
-/// Views once around an ellipse over the field, 300 m above the ground, looking
-/// along the path with the pitch of roughest_view().
+/// Views once around an ellipse over the field, 300 m above the ground, looking along the path with the pitch of
+/// roughest_view().
 std::vector<terrain::MeshView> ellipse_views(const FlickerGround& ground, int frames) {
     const glm::dvec2 radius_m = glm::dvec2(0.6, 0.4) * ground.field.half_extent_m();
     std::vector<terrain::MeshView> views;
@@ -262,8 +257,7 @@ constexpr std::array flicker_first = {2.0, 4.0, 8.0, 16.0, 32.0, 64.0}; ///< C_0
 /// Rows of a table.
 using Rows = std::vector<std::vector<report::Cell>>;
 
-/// Runs of one field, by control as triangle_controls counts them; those not
-/// made are empty.
+/// Runs of one field, by control as triangle_controls counts them; those not made are empty.
 struct FieldRuns {
     std::string name;                           ///< of the field
     std::vector<std::vector<FlickerRun>> fixed; ///< by flicker_weights, by control
@@ -280,8 +274,7 @@ struct FlickerRuns {
                                              ///< along the rugged path, c = 5
 };
 
-/// First change that figures of a path take in: the way in from C_0 is left
-/// out.
+/// First change that figures of a path take in: the way in from C_0 is left out.
 std::size_t first_measured(std::size_t frames) { return std::min<std::size_t>(20, frames / 2) + 1; }
 
 /// Of a run along a path.
@@ -428,15 +421,14 @@ void add_damping_figure(Study& study, const FlickerRuns& runs) {
                           "printed; r = 0 is the previous control. The paper: r = 4 is best.");
 }
 
-// The paper shows two grounds, for which a is chosen by hand. Here one a meets
-// five of them, and so does the control that needs none.
+// The paper shows two grounds, for which a is chosen by hand. Here one a meets five of them, and so does the control
+// that needs none.
 
 constexpr std::array shown_controls = {damped_control, tuned_control, exact_control};
 constexpr std::size_t last_frames = 100; ///< of the fixed view
 constexpr std::size_t gain_every = 25;   ///< frames
 
-/// Hills whose heights above the lowest are multiplied, and then taken in whole
-/// steps above a sea.
+/// Hills whose heights above the lowest are multiplied, and then taken in whole steps above a sea.
 HeightField terraced_hills(
     const HeightField& hills, std::string name, double factor, double step_m, double sea_m, double spacing_m) {
     const double lowest_m = static_cast<double>(hills.lowest_m());
@@ -461,8 +453,8 @@ HeightField high_mountains(const HeightField& hills) {
     return terraced_hills(hills, "mountains as the Himalaya", 15.0, 1.0, 0.0, 60.0);
 }
 
-/// The loop gains along a path: N'(C) as two meshes around C tell it, over the
-/// one that the control believes in; none for a control without it.
+/// The loop gains along a path: N'(C) as two meshes around C tell it, over the one that the control believes in; none
+/// for a control without it.
 std::vector<double> loop_gains(
     FlickerGround& ground, const std::vector<terrain::MeshView>& views, const FlickerRun& run) {
     std::vector<double> gains;
@@ -479,6 +471,9 @@ double mean_of(std::span<const double> values) {
     return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
+/// Empty for no gain and for 0: the ground has fewer triangles than the control wants.
+std::string gain_text(double gain) { return gain > 0.0 ? fmt::format("{:.2f}", gain) : ""; }
+
 std::vector<report::Cell> relief_row(FlickerGround& ground, const TriangleControl& control, int frames) {
     const std::vector fixed(2 * last_frames, roughest_view(ground));
     const std::vector<terrain::MeshView> path = ellipse_views(ground, frames);
@@ -488,20 +483,18 @@ std::vector<report::Cell> relief_row(FlickerGround& ground, const TriangleContro
     const double change = path_changes(flown).mean;
     return {{"ground", ground.field.name},
         {"relief m", "{:.0f}", static_cast<double>(ground.field.highest_m() - ground.field.lowest_m())},
-        {"control", control.name}, {"g, mean", gains.empty() ? "" : fmt::format("{:.2f}", mean_of(gains))},
-        {"g, largest", gains.empty() ? "" : fmt::format("{:.2f}", *std::ranges::max_element(gains))},
+        {"control", control.name}, {"g, mean", gain_text(gains.empty() ? 0.0 : mean_of(gains))},
+        {"g, largest", gain_text(gains.empty() ? 0.0 : *std::ranges::max_element(gains))},
         {"fixed view, mean abs dn", "{:.1f}",
             terrain::change_statistics(standing.triangles, standing.triangles.size() - last_frames).mean},
         {"path, mean abs dn", "{:.1f}", change},
         {"path, % of N", "{:.3f}", 100.0 * change / standard.target_triangles}};
 }
 
-/// How quietly the damped control as printed, the one that finds its own gain
-/// and the exact budget hold the count over grounds of all reliefs: two made
-/// ones flatter than `options.gentle`, that and `options.rugged`, and a made
-/// one as high as the Himalaya. A row for each ground and control: loop gain,
-/// mean change of N over the last frames of a fixed view and along the path.
-/// Throws Error.
+/// How quietly the damped control as printed, the one that finds its own gain and the exact budget hold the count over
+/// grounds of all reliefs: two made ones flatter than `options.gentle`, that and `options.rugged`, and a made one as
+/// high as the Himalaya. A row for each ground and control: loop gain, mean change of N over the last frames of a fixed
+/// view and along the path. Throws Error.
 report::ResultTable relief_table(const FlickerStudyOptions& options) {
     const HeightField hills = models::procedural::procedural_hills();
     std::vector<HeightField> fields;
@@ -716,8 +709,7 @@ FieldRuns run_field(FlickerGround& ground, int frames, int still_frames, base::P
     return runs;
 }
 
-/// Damped as printed along the path, with another r each; two of them were run
-/// before.
+/// Damped as printed along the path, with another r each; two of them were run before.
 std::vector<FlickerRun> run_damping_lengths(
     FlickerGround& ground, int frames, const std::vector<FlickerRun>& path, base::Progress& progress) {
     const std::vector<terrain::MeshView> views = ellipse_views(ground, frames);
