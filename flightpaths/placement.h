@@ -3,7 +3,6 @@
 #include "sim/aircraft_state.h"
 #include "sim/base/axes.h"
 #include "sim/base/error.h"
-#include "sim/height_mode.h"
 #include "sim/trajectory.h"
 
 #include <glm/vec2.hpp>

@@ -32,10 +32,7 @@ void BinaryReader::refuse_at(std::size_t at, const std::string& expected, const 
     throw_error_in(file_, what);
 }
 
-void write_archive(const std::filesystem::path& file, const ArchiveKind& kind, std::string_view body) {
-    if (body.size() > kind.max_bytes) {
-        throw_error_in(file, fmt::format("expected at most {} bytes, got {}", kind.max_bytes, body.size()));
-    }
+std::string archive_bytes(const ArchiveKind& kind, std::string_view body) {
     BinaryWriter out;
     out.put_bytes(kind.signature);
     out.put(kind.version);
@@ -43,7 +40,14 @@ void write_archive(const std::filesystem::path& file, const ArchiveKind& kind, s
     out.put(std::uint64_t{body.size()});
     out.put(checksum_of(body));
     out.put_bytes(body);
-    write_file(file, out.bytes());
+    return out.bytes();
+}
+
+void write_archive(const std::filesystem::path& file, const ArchiveKind& kind, std::string_view body) {
+    if (body.size() > kind.max_bytes) {
+        throw_error_in(file, fmt::format("expected at most {} bytes, got {}", kind.max_bytes, body.size()));
+    }
+    write_file(file, archive_bytes(kind, body));
 }
 
 BinaryReader archive_body(std::string_view bytes, const std::filesystem::path& file, const ArchiveKind& kind) {

@@ -138,6 +138,12 @@ struct ArchiveKind {
     std::size_t max_bytes = std::size_t{1} << 30U; ///< Larger bodies are neither written nor read.
 };
 
+/// The size of an archive before its body.
+constexpr std::size_t archive_head_bytes = 32;
+
+/// The bytes of an archive with this body.
+std::string archive_bytes(const ArchiveKind& kind, std::string_view body);
+
 /// Writes the whole archive or nothing (write_file). Throws Error.
 void write_archive(const std::filesystem::path& file, const ArchiveKind& kind, std::string_view body);
 

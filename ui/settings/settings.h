@@ -1,7 +1,7 @@
 #pragma once
 
 #include "models/heights/import_options.h"
-#include "sim/height_mode.h"
+#include "sim/trajectory.h"
 #include "visuals/scene/settings.h"
 
 #include <algorithm>

@@ -3,6 +3,7 @@
 #include "visuals/groundfile/ground_file.h"
 
 #include "models/heights/local_frame.h"
+#include "sim/base/binary_file.h"
 #include "sim/base/error.h"
 #include "sim/base/hash.h"
 #include "sim/base/text_file.h"
@@ -40,34 +41,18 @@ namespace octant::visuals::groundfile {
 // Writes and checks the first page of a ground's file. Files come from outside: every number is checked before it is
 // used, and a hash of the layout refuses files of another release.
 
-static_assert(std::is_trivially_copyable_v<GroundHeader> && sizeof(GroundHeader) <= 4096);
-static_assert(std::endian::native == std::endian::little);
-static_assert(std::has_unique_object_representations_v<ImportProgress::Stage>);
-
 namespace {
 
 constexpr std::size_t checksum_bytes = 8;
+constexpr std::size_t max_name_bytes = 256;
+constexpr std::size_t max_wkt_bytes = 3072;
 
-std::uint64_t own_checksum(const GroundHeader& header) {
-    return checksum_of(std::as_bytes(std::span(&header, 1)).first(offsetof(GroundHeader, checksum)));
-}
-
-template <class Part>
-std::uint64_t part_checksum(const Part& part) {
-    return checksum_of(std::as_bytes(std::span(&part, 1)));
-}
-
-StoredMapSystem stored(const models::heights::CoordinateSystem& system) {
-    StoredMapSystem result;
-    if (system.wkt.size() <= result.wkt.size()) {
-        result.centre_x = system.centre_x;
-        result.centre_y = system.centre_y;
-        result.unit_m = system.unit_m;
-        result.wkt_length = static_cast<std::uint32_t>(system.wkt.size());
-        std::copy(system.wkt.begin(), system.wkt.end(), result.wkt.begin());
-    }
-    return result;
-}
+constexpr ArchiveKind header_kind{.content = "a ground made by terrain import",
+    .signature = "octant g",
+    .version = 7,
+    .max_bytes = GroundHeader::bytes};
+/// Files of versions 1 to 6, which were no archives, begin with this.
+constexpr std::string_view earlier_signature = "octant ground\r\n\x1a";
 
 bool is_power_of_two(double x) {
     int exponent = 0;
@@ -77,27 +62,18 @@ bool is_power_of_two(double x) {
 /// Whether |x| is at most `largest`; false for a NaN.
 bool lies_within(double x, double largest) { return std::abs(x) <= largest; }
 
-bool is_intact(const StoredMapSystem& s) {
-    return std::isfinite(s.centre_x) && std::isfinite(s.centre_y) && s.wkt_length <= s.wkt.size() &&
-           (s.wkt_length == 0 || (s.unit_m > 0.0 && std::isfinite(s.unit_m)));
-}
-
-bool is_intact(const StoredDeviation& d) { return std::isfinite(d.rms_m) && std::isfinite(d.worst_m) && d.places >= 0; }
-
+/// Whether all numbers of a header may be used.
 bool is_intact(const GroundHeader& h) {
-    const auto fits = [](std::int32_t n) { return n >= 2 && n <= 65536; };
-    const bool has_numbers = std::isfinite(h.lowest_m) && std::isfinite(h.highest_m) && std::isfinite(h.mean_m) &&
-                             std::isfinite(h.progress.lowest_m) && std::isfinite(h.progress.highest_m);
-    const bool lies_on_earth =
-        h.has_place == 0 || (lies_within(h.latitude_deg, 90.0) && lies_within(h.longitude_deg, 360.0));
-    return fits(h.columns) && fits(h.rows) && is_storable(shape_of(h)) && has_numbers && lies_on_earth &&
-           is_intact(h.system) && is_intact(h.deviation) && h.name_length <= h.name.size() &&
+    const auto fits = [](int n) { return n >= 2 && n <= 65536; };
+    const auto are_finite = [](auto... numbers) { return (std::isfinite(numbers) && ...); };
+    const GroundMetadata& m = h.metadata;
+    return fits(h.shape.columns) && fits(h.shape.rows) && is_storable(h.shape) &&
+           are_finite(m.lowest_m, m.highest_m, m.mean_m, h.progress.lowest_m, h.progress.highest_m) &&
+           (!m.place || (lies_within(m.place->latitude_deg, 90.0) && lies_within(m.place->longitude_deg, 360.0))) &&
+           (!m.system ||
+               (are_finite(m.system->centre_x, m.system->centre_y, m.system->unit_m) && m.system->unit_m > 0.0)) &&
+           (!m.deviation || (are_finite(m.deviation->rms_m, m.deviation->worst_m) && m.deviation->places >= 0)) &&
            h.progress.stage <= ImportProgress::Stage::Complete;
-}
-
-/// Whether the quadtree's square has no samples beyond the field.
-bool is_square_field(const GroundShape& shape) {
-    return shape.columns == shape.rows && GroundLayout(shape).level(0).edge == shape.columns - 1;
 }
 
 /// The length of the longest beginning of a text that has at most `longest` bytes and ends with a whole character.
@@ -144,69 +120,15 @@ std::uint64_t hash_of(const GroundShape& shape) {
                  at.north_errors[0], at.east_heights, at.east_errors[0], at.ranges}) {
             hash.add_word(place);
         }
-        if (layout.has_both_margins()) {
-            hash.add_word(at.errors[1][0]);
-            hash.add_word(at.errors[1][1]);
-            hash.add_word(at.north_errors[1]);
-            hash.add_word(at.east_errors[1]);
+        for (const std::size_t place : {at.errors[1][0], at.errors[1][1], at.north_errors[1], at.east_errors[1]}) {
+            hash.add_word(place);
         }
     }
-    const terrain::ErrorCodes codes = terrain::codes_of(shape);
+    const terrain::ErrorCodes codes(shape.height_unit_m);
     for (int code = 0; code < 256; ++code) {
         hash.add_word(std::bit_cast<std::uint32_t>(codes.metres(static_cast<std::uint8_t>(code))));
     }
     return hash.value();
-}
-
-GroundHeader header_of(const GroundShape& shape, const GroundMetadata& metadata) {
-    GroundHeader header;
-    header.version = !shape.has_both_margins ? 3 : !shape.has_unit_codes ? 4 : GroundHeader::current_version;
-    header.columns = shape.columns;
-    header.rows = shape.rows;
-    header.spacing_m = shape.spacing_m;
-    header.height_base_m = shape.height_base_m;
-    header.height_unit_m = shape.height_unit_m;
-    header.has_place = metadata.place ? 1 : 0;
-    header.latitude_deg = metadata.place ? metadata.place->latitude_deg : 0.0;
-    header.longitude_deg = metadata.place ? metadata.place->longitude_deg : 0.0;
-    if (metadata.system) { header.system = stored(*metadata.system); }
-    if (metadata.deviation) {
-        header.deviation = {metadata.deviation->rms_m, metadata.deviation->worst_m, metadata.deviation->places};
-    }
-    header.filled_voids = metadata.filled_voids;
-    header.lowest_m = metadata.lowest_m;
-    header.highest_m = metadata.highest_m;
-    header.mean_m = metadata.mean_m;
-    header.name_length = static_cast<std::uint32_t>(truncated_length(metadata.name, header.name.size()));
-    std::copy_n(metadata.name.begin(), header.name_length, header.name.begin());
-    header.layout = hash_of(shape);
-    return header;
-}
-
-GroundShape shape_of(const GroundHeader& h) {
-    return {h.columns, h.rows, h.spacing_m, h.height_base_m, h.height_unit_m, h.version > 3, h.version > 4};
-}
-
-GroundMetadata metadata_of(const GroundHeader& h) {
-    GroundMetadata metadata;
-    metadata.name = sanitized_utf8({h.name.data(), h.name_length});
-    if (h.has_place != 0) { metadata.place = GeoPosition{h.latitude_deg, h.longitude_deg}; }
-    if (h.system.wkt_length > 0) {
-        metadata.system = models::heights::CoordinateSystem{
-            {h.system.wkt.data(), h.system.wkt_length}, h.system.centre_x, h.system.centre_y, h.system.unit_m};
-    }
-    if (metadata.place && metadata.system) {
-        metadata.place->ellipsoid = models::heights::ellipsoid_of(metadata.system->wkt);
-    }
-    if (h.deviation.places > 0) {
-        metadata.deviation =
-            models::heights::HeightDeviation{h.deviation.rms_m, h.deviation.worst_m, h.deviation.places};
-    }
-    metadata.filled_voids = h.filled_voids;
-    metadata.lowest_m = h.lowest_m;
-    metadata.highest_m = h.highest_m;
-    metadata.mean_m = h.mean_m;
-    return metadata;
 }
 
 bool is_storable(const GroundShape& shape) {
@@ -215,47 +137,116 @@ bool is_storable(const GroundShape& shape) {
            unit_m >= 0x1p-12 && unit_m <= 1.0 && is_power_of_two(unit_m);
 }
 
-std::array<std::byte, GroundHeader::bytes> header_page(GroundHeader header) {
-    header.checksum = own_checksum(header);
-    header.system_checksum = part_checksum(header.system);
-    header.deviation_checksum = part_checksum(header.deviation);
+namespace {
+
+void put_metadata(const GroundMetadata& metadata, BinaryWriter& out) {
+    out.put_text(std::string_view(metadata.name).substr(0, truncated_length(metadata.name, max_name_bytes)));
+    out.put(std::uint8_t{metadata.place.has_value()});
+    if (metadata.place) {
+        out.put(metadata.place->latitude_deg);
+        out.put(metadata.place->longitude_deg);
+    }
+    const bool has_system = metadata.system && metadata.system->wkt.size() <= max_wkt_bytes;
+    out.put(std::uint8_t{has_system});
+    if (has_system) {
+        out.put_text(metadata.system->wkt);
+        out.put(metadata.system->centre_x);
+        out.put(metadata.system->centre_y);
+        out.put(metadata.system->unit_m);
+    }
+    out.put(std::uint8_t{metadata.deviation.has_value()});
+    if (metadata.deviation) {
+        out.put(metadata.deviation->rms_m);
+        out.put(metadata.deviation->worst_m);
+        out.put(std::int64_t{metadata.deviation->places});
+    }
+    out.put(metadata.filled_voids);
+    out.put(metadata.lowest_m);
+    out.put(metadata.highest_m);
+    out.put(metadata.mean_m);
+}
+
+/// What put_metadata wrote. Braces evaluate from left to right.
+GroundMetadata take_metadata(BinaryReader& in) {
+    GroundMetadata metadata;
+    metadata.name = sanitized_utf8(in.take_text("a name"));
+    if (in.take<std::uint8_t>() != 0) { metadata.place = GeoPosition{in.take<double>(), in.take<double>()}; }
+    if (in.take<std::uint8_t>() != 0) {
+        metadata.system = models::heights::CoordinateSystem{
+            std::string(in.take_text("a coordinate system")), in.take<double>(), in.take<double>(), in.take<double>()};
+        if (metadata.place) { metadata.place->ellipsoid = models::heights::ellipsoid_of(metadata.system->wkt); }
+    }
+    if (in.take<std::uint8_t>() != 0) {
+        metadata.deviation =
+            models::heights::HeightDeviation{in.take<double>(), in.take<double>(), in.take<std::int64_t>()};
+    }
+    metadata.filled_voids = in.take<std::int64_t>();
+    metadata.lowest_m = in.take<float>();
+    metadata.highest_m = in.take<float>();
+    metadata.mean_m = in.take<float>();
+    return metadata;
+}
+
+ImportProgress take_progress(BinaryReader& in) {
+    return {in.take<ImportProgress::Stage>(), in.take<std::uint64_t>(), in.take<std::uint64_t>(),
+        in.take<std::uint64_t>(), in.take<std::int64_t>(), in.take<double>(), in.take<double>()};
+}
+
+GroundHeader decoded_header(BinaryReader body) {
+    GroundHeader header;
+    GroundShape& shape = header.shape;
+    shape.columns = body.take<std::int32_t>();
+    shape.rows = body.take<std::int32_t>();
+    for (double* const number : {&shape.spacing_m, &shape.height_base_m, &shape.height_unit_m}) {
+        *number = body.take<double>();
+    }
+    const auto layout = body.take<std::uint64_t>();
+    header.checksums = body.take<std::uint64_t>();
+    header.progress = take_progress(body);
+    header.metadata = take_metadata(body);
+    body.check(is_intact(header), "numbers of a ground");
+    body.check(layout == hash_of(shape), "the layout of this release");
+    return header;
+}
+
+} // namespace
+
+std::array<std::byte, GroundHeader::bytes> header_page(const GroundHeader& header) {
+    const ImportProgress& progress = header.progress;
+    BinaryWriter body;
+    body.put(std::int32_t{header.shape.columns});
+    body.put(std::int32_t{header.shape.rows});
+    body.put(header.shape.spacing_m);
+    body.put(header.shape.height_base_m);
+    body.put(header.shape.height_unit_m);
+    body.put(hash_of(header.shape));
+    body.put(header.checksums);
+    body.put(progress.stage);
+    for (const std::uint64_t number : {progress.inputs, progress.rows_done, progress.tiles_done}) { body.put(number); }
+    body.put(progress.voids);
+    body.put(progress.lowest_m);
+    body.put(progress.highest_m);
+    put_metadata(header.metadata, body);
+    std::string padded = body.bytes();
+    padded.resize(GroundHeader::bytes - archive_head_bytes, '\0');
+    const std::string bytes = archive_bytes(header_kind, padded);
     std::array<std::byte, GroundHeader::bytes> page = {};
-    std::memcpy(page.data(), &header, sizeof header);
+    std::ranges::copy(std::as_bytes(std::span(bytes)), page.begin());
     return page;
 }
 
 GroundHeader read_header(const std::filesystem::path& path, std::span<const std::byte> file) {
-    GroundHeader header;
-    const bool whole = file.size() >= GroundHeader::bytes;
-    if (whole) { std::memcpy(&header, file.data(), sizeof header); }
-    if (!whole || header.magic != GroundHeader::current_magic) {
+    const std::string_view bytes(reinterpret_cast<const char*>(file.data()), file.size());
+    if (file.size() < GroundHeader::bytes || !bytes.starts_with(header_kind.signature)) {
         throw_error_in(path, "expected a ground made by terrain import, got another kind of file");
     }
-    if (header.version < 1 || header.version > GroundHeader::current_version) {
-        throw_error_in(path, fmt::format("expected a ground of version 1 to {}, got version {}: import it again",
-                                 GroundHeader::current_version, header.version));
+    if (bytes.starts_with(earlier_signature)) {
+        throw_error_in(path,
+            fmt::format("expected a ground of version {}, got an earlier one: import it again", header_kind.version));
     }
-    if (header.version == 1) {
-        header.system = {};
-        header.system_checksum = part_checksum(header.system);
-    }
-    if (header.version <= 2) {
-        header.deviation = {};
-        header.deviation_checksum = part_checksum(header.deviation);
-    }
-    if (header.checksum != own_checksum(header) || header.system_checksum != part_checksum(header.system) ||
-        header.deviation_checksum != part_checksum(header.deviation) || !is_intact(header)) {
-        throw_error_in(path, "expected a sound header, got a damaged one: import it again");
-    }
-    if (header.version <= 5 && !is_square_field(shape_of(header))) {
-        throw_error_in(path, fmt::format("expected a ground of version {}, got version {}, whose heights end otherwise "
-                                         "at the map's border: import it again",
-                                 GroundHeader::current_version, header.version));
-    }
-    if (header.layout != hash_of(shape_of(header))) {
-        throw_error_in(path, "expected today's layout, got that of another release: import it again");
-    }
-    return header;
+    try {
+        return decoded_header(archive_body(bytes.substr(0, GroundHeader::bytes), path, header_kind));
+    } catch (const Error& fault) { throw Error(fmt::format("{}: import it again", fault.what())); }
 }
 
 namespace {
@@ -474,9 +465,9 @@ class ChecksumValidator final : public terrain::TileValidator {
 public:
     /// A finished file, sound before its tiles, mapped with Access::CopyOnWrite, and its header.
     ChecksumValidator(std::filesystem::path path, std::shared_ptr<MappedFile> file, const GroundHeader& header)
-        : TileValidator(GroundLayout(shape_of(header)), false), path_(std::move(path)), file_(std::move(file)),
-          ground_(shape_of(header), metadata_of(header),
-              std::as_const(*file_).bytes().subspan(GroundHeader::bytes, GroundLayout(shape_of(header)).total_bytes()),
+        : TileValidator(GroundLayout(header.shape), false), path_(std::move(path)), file_(std::move(file)),
+          ground_(header.shape, header.metadata,
+              std::as_const(*file_).bytes().subspan(GroundHeader::bytes, GroundLayout(header.shape).total_bytes()),
               nullptr, std::shared_ptr<const TileValidator>(std::shared_ptr<const void>(), this)),
           checksums_(GroundFileLayout(ground_.layout()).checksums), bad_(GroundFileLayout(ground_.layout()).tiles) {}
 
@@ -532,7 +523,7 @@ std::uint64_t checksum_at(const MappedFile& file, const GroundFileLayout& plan, 
 
 /// Throws Error unless the file is finished, has its full length and is sound before the tiles.
 void check_before_tiles(const path& path, const MappedFile& file, const GroundHeader& header) {
-    const GroundLayout layout(shape_of(header));
+    const GroundLayout layout(header.shape);
     const GroundFileLayout plan(layout);
     if (header.progress.stage != ImportProgress::Stage::Complete) {
         throw_error_in(path, "expected a finished ground, got one whose import was stopped");
@@ -552,26 +543,26 @@ void check_before_tiles(const path& path, const MappedFile& file, const GroundHe
 bool is_ground_file(const path& path) {
     std::error_code code;
     if (!std::filesystem::is_regular_file(path, code)) { return false; }
-    std::array<char, GroundHeader::current_magic.size()> magic = {};
-    std::ifstream(path, std::ios::binary).read(magic.data(), magic.size());
-    return magic == GroundHeader::current_magic;
+    std::array<char, header_kind.signature.size()> signature = {};
+    std::ifstream(path, std::ios::binary).read(signature.data(), signature.size());
+    return std::string_view(signature.data(), signature.size()) == header_kind.signature;
 }
 
 GroundTiles open_ground(const path& path) {
     const auto file = std::make_shared<MappedFile>(path, MappedFile::Access::CopyOnWrite);
     const GroundHeader header = read_header(path, std::as_const(*file).bytes());
     check_before_tiles(path, *file, header);
-    const GroundShape shape = shape_of(header);
+    const GroundShape shape = header.shape;
     const GroundLayout layout(shape);
     const auto tested = std::make_shared<const ChecksumValidator>(path, file, header);
-    return {shape, metadata_of(header), memory_of(*file, layout), file, tested};
+    return {shape, header.metadata, memory_of(*file, layout), file, tested};
 }
 
 std::uint64_t hash_of_ground(const path& path) {
     const MappedFile file(path, MappedFile::Access::Read);
     const GroundHeader header = read_header(path, file.bytes());
     check_before_tiles(path, file, header);
-    const GroundLayout layout(shape_of(header));
+    const GroundLayout layout(header.shape);
     Hash hash;
     hash.add(file.bytes().first(GroundHeader::bytes + layout.first_tile()));
     hash.add(file.bytes().subspan(GroundFileLayout(layout).checksums));
@@ -582,7 +573,7 @@ void verify_ground(const path& path, int threads) {
     const MappedFile file(path, MappedFile::Access::Read);
     const GroundHeader header = read_header(path, file.bytes());
     check_before_tiles(path, file, header);
-    const GroundLayout layout(shape_of(header));
+    const GroundLayout layout(header.shape);
     const GroundFileLayout plan(layout);
     std::size_t before = 1;
     for (int level = 0; level < layout.levels(); ++level) {

@@ -171,7 +171,6 @@ void read_rows(
 /// A hash of the inputs (names, sizes, times) and options of an import, which tells one import from another.
 std::uint64_t hash_of_inputs(const std::vector<path>& inputs, const heights::ImportOptions& options) {
     Hash hash;
-    hash.add_word(GroundHeader::current_version);
     hash.add_word(std::bit_cast<std::uint64_t>(options.spacing_m));
     hash.add_word(std::bit_cast<std::uint64_t>(options.height_scale.value_or(0.0)));
     for (const std::optional<std::string>& text : {options.system, options.band}) {
@@ -399,13 +398,7 @@ private:
         }
     }
 
-    void write_header() {
-        GroundHeader header = header_of(shape_, metadata_);
-        header.progress = progress_;
-        header.checksums = checksums_;
-        const auto page = header_page(header);
-        file_->write(0, page);
-    }
+    void write_header() { file_->write(0, header_page({shape_, metadata_, progress_, checksums_})); }
 
     void remove_part() {
         std::error_code code;

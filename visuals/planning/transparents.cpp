@@ -6,7 +6,7 @@
 #include "sim/flight_models.h"
 #include "visuals/landscape/ground.h"
 #include "visuals/nature/cloud_layer.h"
-#include "visuals/planning/drawn_path.h"
+#include "visuals/planning/scene.h"
 #include "visuals/planning/placed_aircraft.h"
 #include "visuals/planning/sky.h"
 

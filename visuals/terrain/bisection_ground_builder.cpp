@@ -80,7 +80,7 @@ StoredHeights stored_heights(std::span<const std::int16_t> numbers, const Ground
 GroundAssembler::GroundAssembler(const GroundShape& shape, const GroundLayout& layout, const StoredHeights& heights,
     std::span<std::byte> memory, int threads)
     : shape_(shape), layout_(layout), heights_(heights), memory_(memory), threads_(threads),
-      coder_(codes_of(shape), heights.number_unit_m) {
+      coder_(ErrorCodes(shape.height_unit_m), heights.number_unit_m) {
     assert(threads >= 1);
     for (int thread = 0; thread < threads; ++thread) { builders_.emplace_back(layout_, heights_, coder_, memory_); }
 }

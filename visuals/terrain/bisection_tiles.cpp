@@ -26,11 +26,7 @@ int rounded_up_quotient(int dividend, int divisor) { return (dividend + divisor 
 
 } // namespace
 
-ErrorCodes codes_of(const GroundShape& shape) {
-    return shape.has_unit_codes ? ErrorCodes::for_height_unit(shape.height_unit_m) : ErrorCodes::legacy();
-}
-
-GroundLayout::GroundLayout(int columns, int rows, bool has_both_margins) : has_both_margins_(has_both_margins) {
+GroundLayout::GroundLayout(int columns, int rows) {
     assert(columns >= 2 && rows >= 2 && columns <= 65536 && rows <= 65536);
     const int longest = std::max({columns, rows, 3}) - 1;
     const int count = static_cast<int>(std::bit_width(static_cast<unsigned>(longest - 1)));
@@ -58,7 +54,7 @@ GroundLayout::GroundLayout(int columns, int rows, bool has_both_margins) : has_b
         level.north_heights = end;
         level.east_heights = level.north_heights + 2 * across;
         end = level.east_heights + 2 * up;
-        for (std::size_t morph_margin = 0; morph_margin < (has_both_margins ? 2 : 1); ++morph_margin) {
+        for (std::size_t morph_margin = 0; morph_margin < 2; ++morph_margin) {
             std::fill(level.north_errors.begin() + morph_margin, level.north_errors.end(), end);
             std::fill(level.east_errors.begin() + morph_margin, level.east_errors.end(), end + across);
             end += across + up;
@@ -74,12 +70,12 @@ GroundLayout::GroundLayout(int columns, int rows, bool has_both_margins) : has_b
 }
 
 /// Places the errors in a level's tiles, and the end of the tiles behind them.
-void GroundLayout::place_errors(Level& level, bool finest) const {
+void GroundLayout::place_errors(Level& level, bool finest) {
     std::size_t planes = height_bytes * parts_of_node;
     for (std::size_t part = 0; part < parts_of_node; ++part) { level.errors[0][part] = planes++ * level.tile_nodes; }
     for (std::size_t part = 0; part < parts_of_node; ++part) {
         const bool is_needing = part == static_cast<std::size_t>(NodePart::Centre) || !finest;
-        level.errors[1][part] = has_both_margins_ && is_needing ? planes++ * level.tile_nodes : level.errors[0][part];
+        level.errors[1][part] = is_needing ? planes++ * level.tile_nodes : level.errors[0][part];
     }
     level.tile_bytes = rounded_up(planes * level.tile_nodes, 2);
 }
@@ -88,31 +84,17 @@ void GroundLayout::place_errors(Level& level, bool finest) const {
 // its code, by half a step in the mean, and that costs triangles: steps are narrow where meshes have most of their
 // samples.
 
-ErrorCodes ErrorCodes::legacy() {
-    constexpr double smallest_m = 0.01;
-    constexpr double ratio = 1.0567; // the 254 steps reach 12,100 m
-    ErrorCodes codes;
-    double error_m = smallest_m;
-    for (std::size_t code = 1; code < codes.metres_.size(); ++code) {
-        codes.metres_[code] = static_cast<float>(error_m);
-        error_m *= ratio;
-    }
-    return codes;
-}
-
-ErrorCodes ErrorCodes::for_height_unit(double height_unit_m) {
+ErrorCodes::ErrorCodes(double height_unit_m) {
     // Numbers, not roots: a file means the same wherever it is read.
     constexpr double wide = 1.148698355;   // 20 steps to 16 times
     constexpr double narrow = 1.036271381; // 214 steps to 2048 times
     constexpr std::size_t first_narrow = 21;
     constexpr std::size_t end_narrow = 235;
-    ErrorCodes codes;
     double units = 0.25;
-    for (std::size_t code = 1; code < codes.metres_.size(); ++code) {
-        codes.metres_[code] = static_cast<float>(units * height_unit_m);
+    for (std::size_t code = 1; code < metres_.size(); ++code) {
+        metres_[code] = static_cast<float>(units * height_unit_m);
         units *= code >= first_narrow && code < end_narrow ? narrow : wide;
     }
-    return codes;
 }
 
 std::uint8_t ErrorCodes::code_of(float error_m) const {
@@ -122,7 +104,7 @@ std::uint8_t ErrorCodes::code_of(float error_m) const {
 
 GroundTiles::GroundTiles(const GroundShape& shape, GroundMetadata metadata, std::span<const std::byte> memory,
     std::shared_ptr<const void> owner, std::shared_ptr<const TileValidator> validator)
-    : shape_(shape), metadata_(std::move(metadata)), layout_(shape), codes_(codes_of(shape)), memory_(memory),
+    : shape_(shape), metadata_(std::move(metadata)), layout_(shape), codes_(shape.height_unit_m), memory_(memory),
       owner_(std::move(owner)),
       validator_(validator ? std::move(validator) : std::make_shared<const TileValidator>(layout_)),
       base_m_(shape.height_base_m), unit_m_(shape.height_unit_m) {

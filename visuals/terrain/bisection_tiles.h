@@ -22,14 +22,11 @@ namespace octant::visuals::terrain {
 /// smallest whose metres are at or above it.
 class ErrorCodes {
 public:
-    /// The codes of all grounds of file versions 1 to 4: 10 mm to 12 km in steps of 5.7 %.
-    static ErrorCodes legacy();
-
     /// The codes of a ground that stores heights in units of so many metres, a power of two. It spans at most 65,000
     /// units, and its codes a quarter of a unit to 2^17 units. Successive codes differ by 3.6 % from 4 to 8192 units
     /// and by 15 % elsewhere, because smaller errors matter only to an eye close to the ground and larger errors are
     /// rare.
-    static ErrorCodes for_height_unit(double height_unit_m);
+    explicit ErrorCodes(double height_unit_m);
 
     float metres(std::uint8_t code) const { return metres_[code]; }
 
@@ -37,8 +34,6 @@ public:
     std::uint8_t code_of(float error_m) const;
 
 private:
-    ErrorCodes() = default;
-
     std::array<float, 256> metres_{};
 };
 
@@ -61,10 +56,6 @@ struct GroundShape {
     double spacing_m = 0.0;
     double height_base_m = 0.0; ///< The height of the stored number 0.
     double height_unit_m = 0.0; ///< The height of one unit; a power of two.
-    /// Whether errors are also stored without margin; if not, those with full margin stand for both.
-    bool has_both_margins = true;
-    /// Whether the error codes are ErrorCodes::for_height_unit; if not, they are ErrorCodes::legacy.
-    bool has_unit_codes = true;
 };
 
 /// The lowest and highest stored height of a node's samples.
@@ -72,9 +63,6 @@ struct HeightRange {
     std::int16_t lowest = 0;
     std::int16_t highest = 0;
 };
-
-/// The error codes of a ground of this shape.
-ErrorCodes codes_of(const GroundShape& shape);
 
 /// The offset of each number of a ground in one block of memory. It is the same in a file and in RAM.
 ///
@@ -151,12 +139,10 @@ public:
         }
     };
 
-    /// The layout of a field of so many samples; for `has_both_margins` see GroundShape.
-    GroundLayout(int columns, int rows, bool has_both_margins = true);
+    /// The layout of a field of so many samples.
+    GroundLayout(int columns, int rows);
 
-    explicit GroundLayout(const GroundShape& shape) : GroundLayout(shape.columns, shape.rows, shape.has_both_margins) {}
-
-    bool has_both_margins() const { return has_both_margins_; }
+    explicit GroundLayout(const GroundShape& shape) : GroundLayout(shape.columns, shape.rows) {}
 
     int levels() const { return static_cast<int>(levels_.size()); }
 
@@ -174,9 +160,8 @@ public:
     std::size_t total_bytes() const { return total_bytes_; }
 
 private:
-    void place_errors(Level& level, bool finest) const;
+    static void place_errors(Level& level, bool finest);
 
-    bool has_both_margins_;
     std::vector<Level> levels_;
     int range_level_ = 0;
     std::size_t total_bytes_ = 0;

@@ -1,6 +1,7 @@
 // Maps, ground files, and the points that terrain tools read.
 #include "models/heights/height_field_export.h"
 #include "models/heights/height_source.h"
+#include "sim/base/binary_file.h"
 #include "sim/base/hash.h"
 #include "tests/fuzz/formats/target.h"
 #include "ui/terrain/ground_view.h"
@@ -10,6 +11,7 @@
 #include "visuals/terrain/ground_query.h"
 
 #include <cmath>
+#include <cstdint>
 #include <cstring>
 
 namespace octant::tests::formats {
@@ -79,21 +81,24 @@ std::string imported(int columns, int rows, bool placed) {
 /// stay as they are.
 void seal(std::string& bytes) {
     if (bytes.size() < GroundHeader::bytes) { return; }
-    GroundHeader header;
-    std::memcpy(static_cast<void*>(&header), bytes.data(), sizeof header);
-    if (header.columns >= 2 && header.columns <= 65536 && header.rows >= 2 && header.rows <= 65536) {
-        const terrain::GroundLayout layout(shape_of(header));
+    const char* const body = bytes.data() + archive_head_bytes;
+    const auto number_at = [&](std::size_t at) { return value_at<double>(body + at); };
+    const terrain::GroundShape shape{
+        value_at<std::int32_t>(body), value_at<std::int32_t>(body + 4), number_at(8), number_at(16), number_at(24)};
+    const auto put = [&bytes](
+                         std::size_t at, std::uint64_t value) { std::memcpy(bytes.data() + at, &value, sizeof value); };
+    if (shape.columns >= 2 && shape.columns <= 65536 && shape.rows >= 2 && shape.rows <= 65536) {
+        const terrain::GroundLayout layout(shape);
         const groundfile::GroundFileLayout plan(layout);
-        header.layout = groundfile::hash_of(shape_of(header));
+        put(archive_head_bytes + 32, groundfile::hash_of(shape));
         if (bytes.size() == plan.file_bytes) {
             const auto all = std::as_bytes(std::span(bytes));
-            const std::uint64_t before_tiles = checksum_of(all.subspan(GroundHeader::bytes, layout.first_tile()));
-            std::memcpy(bytes.data() + plan.checksums, &before_tiles, sizeof before_tiles);
-            header.checksums = checksum_of(all.subspan(plan.checksums));
+            put(plan.checksums, checksum_of(all.subspan(GroundHeader::bytes, layout.first_tile())));
+            put(archive_head_bytes + 40, checksum_of(all.subspan(plan.checksums)));
         }
     }
-    const auto page = groundfile::header_page(header);
-    std::memcpy(bytes.data(), page.data(), page.size());
+    put(archive_head_bytes - 8,
+        checksum_of(std::string_view(bytes).substr(archive_head_bytes, GroundHeader::bytes - archive_head_bytes)));
 }
 
 /// Looks at every sample and a line of sight, and checks the tiles.

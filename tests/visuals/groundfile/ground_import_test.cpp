@@ -227,7 +227,7 @@ TEST_CASE("damage, cut files and other files are told from a ground") {
     CHECK_NOTHROW(open_ground(bad));
     CHECK_THROWS_WITH(verify_ground(bad), Contains("bad.ground") && Contains("damage in level"));
     spoil(100);
-    CHECK_THROWS_WITH(open_ground(bad), Contains("header"));
+    CHECK_THROWS_WITH(open_ground(bad), Contains("checksum") && Contains("import it again"));
     spoil(4100);
     CHECK_THROWS_WITH(open_ground(bad), Contains("before the tiles"));
     spoil(size - 3);

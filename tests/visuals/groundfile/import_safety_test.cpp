@@ -1,19 +1,13 @@
 #include "sim/base/error.h"
-#include "sim/base/hash.h"
-#include "tests/rough_heights.h"
 #include "tests/scratch.h"
 #include "visuals/groundfile/ground_file.h"
 #include "visuals/groundfile/ground_import.h"
-#include "visuals/terrain/bisection_ground_builder.h"
-#include "visuals/terrain/bisection_mesher.h"
 
 #include <catch2/catch.hpp>
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <functional>
@@ -21,7 +15,7 @@
 #include <limits>
 #include <span>
 #include <string>
-#include <utility>
+#include <string_view>
 #include <vector>
 
 #include "whole_metres_tiff.h"
@@ -32,8 +26,6 @@ namespace {
 
 using Catch::Matchers::Contains;
 using std::filesystem::path;
-using terrain::MorphMargin;
-using terrain::NodePart;
 
 const auto run_to_the_end = [](ImportStage, double) { return false; };
 
@@ -52,13 +44,16 @@ std::string content_of(const path& file) {
     return {std::istreambuf_iterator<char>(in), {}};
 }
 
-GroundHeader sound_header() { return header_of({40, 30, 30.0, 7.0, 0x1p-12}, {"plain", {}, {}, 0, 7.0F, 7.0F, 7.0F}); }
+/// What is read from the page of a header.
+GroundHeader read_back(const GroundHeader& header) { return read_header("header", header_page(header)); }
+
+GroundHeader header_with(const GroundMetadata& metadata) { return {{40, 30, 30.0, 7.0, 0x1p-12}, metadata, {}, 0}; }
 
 bool is_taken(const std::function<void(GroundHeader&)>& change) {
-    GroundHeader header = sound_header();
+    GroundHeader header = header_with({"plain", {}, {}, 0, 7.0F, 7.0F, 7.0F});
     change(header);
     try {
-        read_header("header", header_page(header));
+        read_back(header);
     } catch (const Error&) { return false; }
     return true;
 }
@@ -66,43 +61,7 @@ bool is_taken(const std::function<void(GroundHeader&)>& change) {
 std::string name_read(const std::string& name) {
     GroundMetadata metadata;
     metadata.name = name;
-    return metadata_of(header_of({40, 30, 30.0, 7.0, 1.0}, metadata)).name;
-}
-
-/// The file of an earlier version, as a shape tells, that is made of a field.
-void write_earlier_version(const path& file, const models::heights::HeightField& field, const GroundShape& shape,
-    const GroundMetadata& metadata) {
-    std::vector<std::int16_t> numbers;
-    for (int row = 0; row < shape.rows; ++row) {
-        for (int column = 0; column < shape.columns; ++column) {
-            numbers.push_back(terrain::stored_number(field.height_m(column, row), shape));
-        }
-    }
-    const GroundLayout layout(shape);
-    const GroundFileLayout plan(layout);
-    std::vector<std::byte> bytes(plan.file_bytes);
-    const auto memory = std::span(bytes).subspan(GroundHeader::bytes, layout.total_bytes());
-    const auto checksums = std::span(bytes).subspan(plan.checksums);
-    const auto put_checksum = [&](std::size_t index, std::uint64_t checksum) {
-        std::memcpy(&checksums[8 * index], &checksum, sizeof checksum);
-    };
-    const terrain::StoredHeights heights = terrain::stored_heights(numbers, shape, false);
-    terrain::GroundAssembler assembly(shape, layout, heights, memory, 1);
-    assembly.write_overview();
-    for (std::size_t tile = 0; tile < assembly.tiles();) {
-        tile = assembly.build(tile, 1, [&](std::size_t index, std::size_t offset, auto made) {
-            std::copy(made.begin(), made.end(), memory.begin() + static_cast<std::ptrdiff_t>(offset));
-            put_checksum(index + 1, checksum_of(made));
-        });
-    }
-    put_checksum(0, checksum_of(memory.first(layout.first_tile())));
-    GroundHeader header = header_of(shape, metadata);
-    header.progress.stage = ImportProgress::Stage::Complete;
-    header.checksums = checksum_of(checksums);
-    const auto page = header_page(header);
-    std::copy(page.begin(), page.end(), bytes.begin());
-    std::ofstream(file, std::ios::binary)
-        .write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+    return read_back(header_with(metadata)).metadata.name;
 }
 
 } // namespace
@@ -151,135 +110,63 @@ TEST_CASE("a header whose checksum is right but whose numbers are not believed i
     constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
     constexpr float endless = std::numeric_limits<float>::infinity();
     CHECK(is_taken([](GroundHeader&) {}));
-    CHECK(is_taken([](GroundHeader& h) { h.latitude_deg = no_number; }));
     for (const double spacing_m : {0.0, 9e-4, 1.1e6, no_number}) {
-        CHECK_FALSE(is_taken([=](GroundHeader& h) { h.spacing_m = spacing_m; }));
+        CHECK_FALSE(is_taken([=](GroundHeader& h) { h.shape.spacing_m = spacing_m; }));
     }
     for (const double unit_m : {0.0, 0x1p-13, 0.3, 2.0, -0.5, no_number}) {
-        CHECK_FALSE(is_taken([=](GroundHeader& h) { h.height_unit_m = unit_m; }));
+        CHECK_FALSE(is_taken([=](GroundHeader& h) { h.shape.height_unit_m = unit_m; }));
     }
     for (const double base_m : {-1.1e5, 1.1e5, no_number}) {
-        CHECK_FALSE(is_taken([=](GroundHeader& h) { h.height_base_m = base_m; }));
+        CHECK_FALSE(is_taken([=](GroundHeader& h) { h.shape.height_base_m = base_m; }));
     }
     for (const double latitude_deg : {-91.0, 91.0, no_number}) {
-        CHECK_FALSE(is_taken([=](GroundHeader& h) {
-            h.has_place = 1;
-            h.latitude_deg = latitude_deg;
-        }));
+        CHECK_FALSE(is_taken([=](GroundHeader& h) { h.metadata.place = GeoPosition{latitude_deg, 0.0}; }));
     }
-    const auto with_unit = [](double unit_m) {
-        return [unit_m](GroundHeader& h) {
-            h.system.wkt_length = 1;
-            h.system.unit_m = unit_m;
+    const auto with_system = [](double centre_x, double unit_m) {
+        return [=](GroundHeader& h) {
+            h.metadata.system = models::heights::CoordinateSystem{"x", centre_x, 0.0, unit_m};
         };
     };
-    CHECK(is_taken(with_unit(0.3048)));
-    CHECK_FALSE(is_taken(with_unit(0.0)));
-    CHECK_FALSE(is_taken(with_unit(no_number)));
-    CHECK_FALSE(is_taken([](GroundHeader& h) { h.system.centre_x = no_number; }));
-    CHECK_FALSE(is_taken([](GroundHeader& h) { h.system.wkt_length = 5000; }));
-    CHECK_FALSE(is_taken([](GroundHeader& h) { h.lowest_m = endless; }));
-    CHECK_FALSE(is_taken([](GroundHeader& h) { h.highest_m = endless; }));
-    CHECK_FALSE(is_taken([](GroundHeader& h) { h.mean_m = -endless; }));
+    CHECK(is_taken(with_system(0.0, 0.3048)));
+    CHECK_FALSE(is_taken(with_system(0.0, 0.0)));
+    CHECK_FALSE(is_taken(with_system(0.0, no_number)));
+    CHECK_FALSE(is_taken(with_system(no_number, 1.0)));
+    CHECK_FALSE(is_taken([](GroundHeader& h) { h.metadata.lowest_m = endless; }));
+    CHECK_FALSE(is_taken([](GroundHeader& h) { h.metadata.highest_m = endless; }));
+    CHECK_FALSE(is_taken([](GroundHeader& h) { h.metadata.mean_m = -endless; }));
 }
 
-TEST_CASE("a header keeps the coordinate system, and one of the first version has none") {
+TEST_CASE("a header keeps place, system and deviation, but no text of more than a page") {
     GroundMetadata metadata;
+    metadata.place = GeoPosition{49.25, -123.5};
     metadata.system = models::heights::CoordinateSystem{"LOCAL_CS[\"plan\"]", 12.5, -7.0, 0.3048};
-    const GroundHeader header = header_of({40, 30, 30.0, 7.0, 1.0}, metadata);
-    const GroundMetadata kept = metadata_of(read_header("header", header_page(header)));
-    REQUIRE(kept.system);
+    metadata.deviation = models::heights::HeightDeviation{0.5, 2.5, 77};
+    const GroundMetadata kept = read_back(header_with(metadata)).metadata;
+    REQUIRE((kept.place && kept.system && kept.deviation));
+    CHECK(kept.place->latitude_deg == 49.25);
+    CHECK(kept.place->longitude_deg == -123.5);
     CHECK(kept.system->wkt == metadata.system->wkt);
     CHECK(kept.system->centre_x == 12.5);
     CHECK(kept.system->centre_y == -7.0);
     CHECK(kept.system->unit_m == 0.3048);
-    auto spoilt = header_page(header);
-    spoilt[offsetof(GroundHeader, system)] ^= std::byte{1};
-    CHECK_THROWS_WITH(read_header("header", spoilt), Contains("damaged"));
-
-    GroundHeader first = header_of({33, 33, 30.0, 7.0, 1.0, false, false}, metadata);
-    first.version = 1;
-    auto page = header_page(first);
-    std::fill(page.begin() + offsetof(GroundHeader, system), page.end(), std::byte{0});
-    CHECK_FALSE(metadata_of(read_header("header", page)).system);
-    first.version = 7;
-    CHECK_THROWS_WITH(read_header("header", header_page(first)), Contains("got version 7"));
+    CHECK(kept.deviation->rms_m == 0.5);
+    CHECK(kept.deviation->worst_m == 2.5);
+    CHECK(kept.deviation->places == 77);
 
     metadata.system->wkt.assign(4000, 'x');
-    CHECK_FALSE(metadata_of(header_of({40, 30, 30.0, 7.0, 1.0}, metadata)).system);
+    CHECK_FALSE(read_back(header_with(metadata)).metadata.system);
 }
 
-TEST_CASE("grounds of versions 1 to 5 are refused where the field's border cuts the square") {
-    for (const auto& [columns, rows] : {std::pair{40, 30}, {40, 40}, {65, 33}, {33, 34}}) {
-        INFO(columns << " x " << rows);
-        for (std::uint32_t version = 1; version <= 5; ++version) {
-            GroundHeader header = header_of({columns, rows, 30.0, 7.0, 1.0, version > 3, version > 4}, {});
-            header.version = version;
-            CHECK_THROWS_WITH(read_header("header", header_page(header)), Contains("import it again"));
-        }
-        CHECK_NOTHROW(read_header("header", header_page(header_of({columns, rows, 30.0, 7.0, 1.0}, {}))));
-    }
-    GroundHeader whole = header_of({33, 33, 30.0, 7.0, 1.0}, {});
-    whole.version = 5;
-    CHECK_NOTHROW(read_header("header", header_page(whole)));
-}
-
-TEST_CASE("a ground of version 3 is read, and all its errors have full room") {
-    const models::heights::HeightField field(33, 33, 30.0, tests::rough_heights(33, 33));
-    const GroundTiles today = terrain::make_ground_tiles(field);
-    const path file = safety_path("third.ground");
-    GroundShape shape = today.shape();
-    shape.has_unit_codes = false;
-    write_earlier_version(safety_path("fourth.ground"), field, shape, today.metadata());
-    const GroundTiles fourth = open_ground(safety_path("fourth.ground"));
-    shape.has_both_margins = false;
-    write_earlier_version(file, field, shape, today.metadata());
-    const GroundTiles third = open_ground(file);
-    CHECK_NOTHROW(verify_ground(file));
-    CHECK_FALSE(third.layout().has_both_margins());
-    int beyond = 0;
-    for (int level = 0; level < today.levels(); ++level) {
-        const GroundLayout::Level& at = today.layout().level(level);
-        for (int row = 0; row < at.rows; ++row) {
-            for (int column = 0; column < at.columns; ++column) {
-                const auto code = [&](const GroundTiles& ground, MorphMargin morph_margin) {
-                    return ground.error_code(level, NodePart::Centre, column, row, morph_margin);
-                };
-                CHECK(code(third, MorphMargin::Full) == code(fourth, MorphMargin::Full));
-                CHECK(code(third, MorphMargin::None) == code(fourth, MorphMargin::Full));
-                beyond += code(fourth, MorphMargin::Full) > code(fourth, MorphMargin::None) ? 1 : 0;
-            }
-        }
-    }
-    CHECK(beyond > 20);
-}
-
-TEST_CASE("a ground of version 4 is read, and its wider steps between errors cost triangles") {
-    std::vector<float> heights_m;
-    for (int i = 0; i < 257 * 257; ++i) {
-        const double x = i % 257;
-        const double y = i / 257;
-        heights_m.push_back(
-            static_cast<float>(400.0 * std::sin(0.02 * x) * std::cos(0.03 * y) + 60.0 * std::sin(0.11 * x + 0.07 * y) +
-                               9.0 * std::sin(0.43 * x - 0.31 * y) + 1.5 * std::sin(1.3 * x + 1.7 * y)));
-    }
-    const models::heights::HeightField field(257, 257, 30.0, heights_m);
-    const GroundTiles today = terrain::make_ground_tiles(field);
-    GroundShape shape = today.shape();
-    shape.has_unit_codes = false;
-    const path file = safety_path("fourth.ground");
-    write_earlier_version(file, field, shape, today.metadata());
-    const GroundTiles fourth = open_ground(file);
-    CHECK_NOTHROW(verify_ground(file));
-    CHECK(fourth.codes().metres(1) == 0.01F);
-    terrain::MeshView view;
-    view.eye_m = {200.0, -300.0, 2000.0};
-    const auto triangles = [&view](const GroundTiles& ground) {
-        terrain::BisectionMesher mesher(ground);
-        return mesher.mesh(view, {4.0, terrain::unlimited_triangles, true}).counters.triangles;
-    };
-    CHECK(triangles(today) > 2000);
-    CHECK(triangles(today) < 0.995 * triangles(fourth));
+TEST_CASE("a damaged header, one of another version and files of earlier releases are to be imported again") {
+    auto page = header_page(header_with({}));
+    page[100] ^= std::byte{1};
+    CHECK_THROWS_WITH(read_header("header", page), Contains("checksum") && Contains("import it again"));
+    page = header_page(header_with({}));
+    page[8] = std::byte{8};
+    CHECK_THROWS_WITH(read_header("header", page), Contains("version 7, got 8: import it again"));
+    const std::string_view earlier = "octant ground\r\n\x1a\6";
+    std::ranges::copy(std::as_bytes(std::span(earlier)), page.begin());
+    CHECK_THROWS_WITH(read_header("header", page), Contains("of version 7, got an earlier one: import it again"));
 }
 
 TEST_CASE("a name is cut between characters and read as UTF-8 without control characters") {

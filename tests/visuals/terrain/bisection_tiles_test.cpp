@@ -23,8 +23,7 @@ float step_to(const ErrorCodes& codes, int code) {
 } // namespace
 
 TEST_CASE("an error's code is the smallest that is not below it") {
-    for (const ErrorCodes& codes :
-        {ErrorCodes::legacy(), ErrorCodes::for_height_unit(0x1p-4), ErrorCodes::for_height_unit(0x1p-12)}) {
+    for (const ErrorCodes& codes : {ErrorCodes(0x1p-4), ErrorCodes(0x1p-12)}) {
         CHECK(codes.metres(0) == 0.0F);
         CHECK(codes.code_of(0.0F) == 0);
         CHECK(codes.code_of(std::numeric_limits<float>::min()) == 1);
@@ -39,27 +38,20 @@ TEST_CASE("an error's code is the smallest that is not below it") {
     }
 }
 
-TEST_CASE("the codes of all grounds are those of files of versions 1 to 4") {
-    const ErrorCodes codes = ErrorCodes::legacy();
-    CHECK(codes.metres(1) == 0.01F);
-    CHECK(codes.metres(255) == Approx(12'126.45));
-    for (int code = 2; code < 256; ++code) { CHECK(step_to(codes, code) == Approx(1.0567)); }
-}
-
 TEST_CASE("a ground's own codes reach beyond what it spans, in fine steps but at the ends") {
-    const ErrorCodes codes = ErrorCodes::for_height_unit(0.125);
+    const ErrorCodes codes(0.125);
     CHECK(codes.metres(1) == 0.25F * 0.125F);
     CHECK(codes.metres(255) >= 2.0F * 65'000.0F * 0.125F);
     for (int code = 2; code < 256; ++code) {
         const float error_m = codes.metres(static_cast<std::uint8_t>(code));
         const bool fine = error_m > 4.01F * 0.125F && error_m < 8192.1F * 0.125F;
         CHECK(step_to(codes, code) < (fine ? 1.0363F : 1.1488F));
-        CHECK(ErrorCodes::for_height_unit(0.25).metres(static_cast<std::uint8_t>(code)) == 2.0F * error_m);
+        CHECK(ErrorCodes(0.25).metres(static_cast<std::uint8_t>(code)) == 2.0F * error_m);
     }
 }
 
 TEST_CASE("the table of codes agrees with the search") {
-    for (const ErrorCodes& codes : {ErrorCodes::legacy(), ErrorCodes::for_height_unit(0x1p-4)}) {
+    for (const ErrorCodes& codes : {ErrorCodes(0x1p-4), ErrorCodes(0.25)}) {
         const ErrorEncoder coder(codes, 0.25);
         CHECK(coder.code_of(0.0F) == 0);
         for (float steps = 1e-3F; steps < 1e6F; steps *= 1.003F) {

@@ -1,4 +1,4 @@
-#include "visuals/planning/drawn_path.h"
+#include "visuals/planning/scene.h"
 
 #include <algorithm>
 #include <cmath>
