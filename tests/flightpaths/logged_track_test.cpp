@@ -129,8 +129,7 @@ TEST_CASE("what no log of a flight may hold is refused with its line") {
     const std::string head = "time,lat,lon,alt_m\n";
     CHECK(track_fault(head + "0,47,8,500\n1,x,8,500\n") == "3: expected a finite number in column lat, got 'x'");
     CHECK(track_fault(head + "0,47,8,500\nnoon,47,8,500\n") ==
-          "3: expected a time such as 12.5, 07:41:03 or 2024-01-02T07:41:03Z in column time, got "
-          "\"noon\"");
+          "3: expected a time such as 12.5, 07:41:03 or 2024-01-02T07:41:03Z in column time, got 'noon'");
     CHECK(track_fault(head + "0,97,8,500\n") ==
           "2: expected a latitude within 90 deg and a longitude within 360 deg, got 97 and 8");
     CHECK(track_fault(head + "0,47,8,500\n90000,47,8,500\n") ==
