@@ -1,5 +1,6 @@
 #include "sim/base/error.h"
 #include "sim/base/output_file.h"
+#include "sim/base/text_file.h"
 #include "ui/base/data_files.h"
 #include "ui/base/progress.h"
 #include "ui/base/stop_signals.h"
@@ -126,7 +127,7 @@ Option channel_option(flight::ListenerOptions& listener) {
 }
 
 void read_vehicles(const std::string& word, ListenOptions& options) {
-    if (is_file(word)) {
+    if (is_file(word) || extension_of(word) == ".toml") {
         options.entities = word;
     } else {
         settings::read_setting({"--vehicles", "", "", 1, 256}, word, options.vehicles);

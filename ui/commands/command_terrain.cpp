@@ -383,7 +383,7 @@ std::vector<ui::terrain::QueryPoint> query_points(const QueryOptions& options) {
     for (const std::string& text : options.at) {
         if (const auto point = ui::terrain::point_from_text(text)) {
             points.push_back(*point);
-        } else if (is_file(text)) {
+        } else if (is_file(text) || extension_of(text) == ".csv") {
             const std::vector<ui::terrain::QueryPoint> more = ui::terrain::read_points(text);
             points.insert(points.end(), more.begin(), more.end());
         } else {
