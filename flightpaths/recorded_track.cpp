@@ -509,7 +509,7 @@ bool has_place(const TrackColumns& columns, std::span<const std::string_view> na
 /// True if the names contain the time and at least one other of the columns.
 bool has_some(const TrackColumns& columns, std::span<const std::string_view> names) {
     return field_named(names, columns[Time].name) &&
-           std::ranges::any_of(columns | std::views::drop(1), [&](const TableColumn& column) {
+           std::any_of(columns.begin() + 1, columns.end(), [&](const TableColumn& column) {
                return !column.name.empty() && field_named(names, column.name).has_value();
            });
 }

@@ -72,8 +72,8 @@ void collapse_by_quadrics(CollapsingSurface& collapsing, const Goal& goal, const
 
 /// Collapses the edge with the least growth of the error against samples of the original. Each sample must be in the
 /// list of a nearby triangle. Unless the options forbid it, holes are closed, handles cut and shells dropped when that
-/// is cheaper. With an error limit only holes are closed, because a record of collapses cannot represent the other
-/// changes. Returns the number of shells dropped.
+/// is cheaper; with an error limit, shells that keep it are also dropped at the end. Returns the number of shells
+/// dropped.
 std::size_t collapse_by_samples(CollapsingSurface& collapsing, SurfaceSamples& samples, const OriginalSurface& original,
     const Goal& goal, const SimplifyOptions& options);
 

@@ -1,6 +1,7 @@
 // The cost that orders all steps: Y. Kim, B. U. Lee, "Error measure for vertex simplification", 2005, section II.2,
 // distance to triangles in both directions, but against the original surface instead of the mesh before: from samples
-// of it, and back to it by a tree. The way back counts more where the original faces against the triangle, so that no
+// of it, and back to it by a walk over its triangles from the last known nearest point (nearest_from); by a tree only
+// where measured densely. The way back counts more where the original faces against the triangle, so that no
 // triangle folds over.
 //
 // VertexFit holds the normal equations of one vertex. A point at distance d from the surface wants the surface to move

@@ -168,7 +168,7 @@ private:
     std::vector<std::uint32_t> present_faces_;
     std::vector<std::uint8_t> face_changed_;
     std::vector<std::uint32_t> gathered_; ///< The triangles that were loaded.
-    std::vector<BackPoint> back_points_;  ///< Empty unless measured closely.
+    std::vector<BackPoint> back_points_;  ///< Empty unless measured densely.
     double work_done_ = 0.0;
     double current_forward_error_ = 0.0;
     double current_backward_error_ = 0.0;

@@ -83,7 +83,8 @@ private:
 /// `text` with each aliased folder replaced by its name.
 std::string with_path_aliases(std::string text);
 
-/// Calls `function`; an Error that it throws goes on with_path_aliases(), which may be gone where it is caught.
+/// Calls `function` and returns its result. The text of an Error that it throws gets with_path_aliases() here, because
+/// the aliases may have ended where the Error is caught.
 template <class Function>
 auto with_named_errors(const Function& function) {
     try {

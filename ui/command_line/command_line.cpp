@@ -532,7 +532,7 @@ int print_error(const std::string& program, const std::string& line) {
 int run_command(const Program& program, int argument_count, const char* const* arguments) {
     int code = 0;
     try {
-        // While owners of unpacked recordings live.
+        // Errors are named inside, because aliases of unpacked recordings end with their owners.
         base::with_named_errors([&] { parse_command_line(program, argument_count, arguments)(); });
     } catch (const CheckFailed&) { code = exit_check_failed; } catch (const base::StoppedBySignal&) {
         return code; // exit_by_received_signal() ends the program by the signal

@@ -28,7 +28,7 @@ struct OrderedModel {
     /// The model, with polygons split where no order exists otherwise; its parents are the polygons they are pieces of.
     models::polygons::PolygonModel model;
     DrawOrder order;
-    std::vector<OrderCell> cells = {}; ///< For each cell of the order; empty where it has parts.
+    std::vector<OrderCell> cells = {}; ///< By cell of the order; empty where the order splits polygons.
     glm::dvec3 centre_m{0.0};          ///< Paper, Cells: where the octants meet.
     /// Paper, Cells: the orders hold for |x|+|y|+|z| >= this, from centre_m.
     double min_distance_m = 0.0;

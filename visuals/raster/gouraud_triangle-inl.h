@@ -1,5 +1,5 @@
 // Gouraud-shaded triangles, nearly all of a picture: masks and colours of whole strips are added straight to the sums
-// of the tile. In this order: inverse depth and ground number for the detail texture; two rows of a narrow triangle in
+// of the tile. In this order: inverse depth and land cover for the detail texture; two rows of a narrow triangle in
 // one register, with the same result as row by row; strips of one row. Included once for each instruction set.
 #if defined(OCTANT_RASTER_GOURAUD_TRIANGLE_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef OCTANT_RASTER_GOURAUD_TRIANGLE_INL

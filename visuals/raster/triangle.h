@@ -163,7 +163,7 @@ struct TriangleExtra {
     int cut_count = 0;
     std::array<AttributePlane, 3> from_edges{}; ///< over w; 1 at the corner opposite the edge
     std::array<const LitVertex*, 3> lit{};      ///< the corners, interpolated by from_edges, for Fill::Lit
-    float mesh_level = 0.0F;                    ///< how many times the longest edge is twice the sample spacing
+    float mesh_level = 0.0F;                    ///< log2 of longest edge over sample spacing
 };
 
 /// A triangle on the picture.

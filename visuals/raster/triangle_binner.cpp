@@ -51,7 +51,7 @@ void add_overlay(const scene::OverlayDraw& overlay, std::span<const std::uint32_
     }
 }
 
-/// How many times the longest edge of a triangle is twice the ground's sample spacing.
+/// How often the ground's sample spacing is doubled to reach the longest edge of a triangle: log2 of their ratio.
 float mesh_level(const glm::vec3& a_m, const glm::vec3& b_m, const glm::vec3& c_m, float sample_spacing_m) {
     const auto across_m = [](const glm::vec3& from_m, const glm::vec3& to_m) {
         return glm::length(glm::vec2(to_m - from_m));

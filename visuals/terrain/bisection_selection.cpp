@@ -113,7 +113,7 @@ std::uint32_t BisectionSelection::visit(const PendingNode& from) {
     return static_cast<std::uint32_t>(own);
 }
 
-/// A child's place, with the gaps of its parent.
+/// A child's place, with the vertical distances of its parent.
 inline NodeContext BisectionSelection::child_place(const NodeContext& place, unsigned quadrant) {
     return {place.level + 1, 2 * place.column + static_cast<int>(quadrant & 1U),
         2 * place.row + static_cast<int>(quadrant >> 1U), place.distances};
@@ -129,7 +129,7 @@ inline bool BisectionSelection::is_cut(const GroundLayout::Level& at, const Node
 inline void BisectionSelection::test_children(const PendingNode& from, Children& children) {
     const GroundLayout& layout = criterion_->ground().layout();
     const GroundLayout::Level& at = layout.level(from.place.level + 1);
-    const bool own_gaps = from.place.level < layout.range_level();
+    const bool has_own_distances = from.place.level < layout.range_level();
     std::array<VerticalDistances, 4>& own = distances_[static_cast<std::size_t>(from.place.level) + 1];
     for (unsigned q = 0; q < 4; ++q) {
         const NodeContext place = child_place(from.place, q);
@@ -139,7 +139,7 @@ inline void BisectionSelection::test_children(const PendingNode& from, Children&
         }
         ++nodes_tested_;
         const VerticalDistances* distances = from.place.distances;
-        if (own_gaps) {
+        if (has_own_distances) {
             own[q] = criterion_->vertical_distances_of(place.level, place.column, place.row);
             distances = &own[q];
         }
