@@ -113,7 +113,7 @@ TEST_CASE("along no line of sight inside the ring do two polygons face the eye")
     int hits = 0;
     for (int sample = 0; sample < 5000; ++sample) {
         const glm::dvec3 eye = point_inside(dice, 0.5, 6000.0);
-        const glm::dvec3 ray(dice.between(-1, 1), dice.between(-1, 1), dice.between(-0.2, 0.5));
+        const glm::dvec3 ray{dice.between(-1, 1), dice.between(-1, 1), dice.between(-0.2, 0.5)};
         int faced = 0;
         for (std::size_t i = 0; i < 60; ++i) { faced += front_hit(model, i, eye, ray) ? 1 : 0; }
         CHECK(faced <= 1);

@@ -83,7 +83,7 @@ TEST_CASE("with a share of their length counted, edges of flat sides stay alike"
     TriangleMesh rough = flat_cube;
     std::mt19937 random(7);
     for (glm::dvec3& vertex_m : rough.vertices_m) {
-        vertex_m += 2e-4 * glm::dvec3(random() % 2, random() % 2, random() % 2);
+        for (int axis = 2; axis >= 0; --axis) { vertex_m[axis] += 2e-4 * static_cast<double>(random() % 2); }
     }
     const TriangleMesh plain = coarse(rough, 0.0);
     const TriangleMesh even = coarse(rough, 0.03);
@@ -563,7 +563,8 @@ TEST_CASE("meshes with random holes, handles and parts stay manifolds, and close
     std::mt19937 random(11);
     for (int i = 0; i < 8; ++i) {
         const std::size_t holes = i % 2 == 0 ? 0 : 2 + random() % 8;
-        const TriangleMesh fine = riddled(random, 1 + random() % 3, random() % 5, holes);
+        const std::size_t tubes = random() % 5;
+        const TriangleMesh fine = riddled(random, 1 + random() % 3, tubes, holes);
         SimplifyOptions options;
         options.goal.faces = 12 + random() % 200;
         options.effort = static_cast<int>(random() % 3);

@@ -57,7 +57,8 @@ std::vector<Sending> schedule_of(const Network& network) {
     std::vector<Sending> schedule;
     for (int i = 0; i < static_cast<int>(flown_s * rate_hz); ++i) {
         const double truth_s = i / rate_hz;
-        const double late_s = network.jitter_s * dice.next() + (dice.next() < network.reordered ? 1.3 / rate_hz : 0.0);
+        const double jitter_s = network.jitter_s * dice.next();
+        const double late_s = jitter_s + (dice.next() < network.reordered ? 1.3 / rate_hz : 0.0);
         if (!(dice.next() < network.loss)) { schedule.push_back({truth_s + late_s, truth_s}); }
     }
     std::ranges::stable_sort(schedule, {}, &Sending::at_s);

@@ -76,7 +76,7 @@ PolygonModel scattered(int count) {
         const glm::dvec3 across = i % 4 == 0 ? glm::dvec3(0.0, 0.0, 1.0) : glm::normalize(dice.direction());
         const glm::dvec3 right = glm::normalize(glm::cross(across, {0.6, 0.0, 0.8}));
         const glm::dvec3 up = glm::cross(across, right);
-        const glm::dvec3 middle(dice.between(-2, 2), dice.between(-2, 2), i % 3);
+        const glm::dvec3 middle{dice.between(-2, 2), dice.between(-2, 2), 1.0 * (i % 3)};
         Outline& outline = outlines.emplace_back();
         for (int k = 0; k < corners; ++k) {
             const double turn = 2.0 * 3.14159265358979 * k / corners;

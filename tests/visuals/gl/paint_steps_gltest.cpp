@@ -261,8 +261,8 @@ TEST_CASE("slivers of ground keep their numbers to the last bit") {
     Triangles slivers;
     constexpr std::uint32_t number = 0xff1ebde2U;
     for (std::uint32_t i = 0; i < 30000; ++i) {
-        const glm::vec2 from(dice.between(-0.9, 0.9), dice.between(-0.9, 0.9));
-        const glm::vec2 mode(dice.between(-0.3, 0.3), dice.between(-0.3, 0.3));
+        const glm::vec2 from{glm::dvec2{dice.between(-0.9, 0.9), dice.between(-0.9, 0.9)}};
+        const glm::vec2 mode{glm::dvec2{dice.between(-0.3, 0.3), dice.between(-0.3, 0.3)}};
         for (const float share : {0.0F, 0.4F, 1.0F}) {
             const glm::vec2 aside(-mode.y, mode.x);
             const glm::vec2 at = from + mode * share + aside * (share == 0.4F ? 2e-5F : 0.0F);
