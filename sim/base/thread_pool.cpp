@@ -129,7 +129,7 @@ void BackgroundTask::run_work() {
     } catch (...) { exception = std::current_exception(); }
     // Notified under the lock: the owner may destroy this object next.
     const std::scoped_lock lock(mutex_);
-    exception_ = exception;
+    exception_ = std::move(exception); // the last reference, so that the waiting thread alone destroys it
     work_ = nullptr;
     ended_.notify_all();
 }

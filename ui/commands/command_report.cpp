@@ -8,6 +8,7 @@
 #include "ui/report/loaded_recording.h"
 #include "ui/report/packed_recording.h"
 #include "ui/report/statistics.h"
+#include "ui/settings/setting_rows.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -59,12 +60,16 @@ void make_report(const ReportOptions& options) {
     const std::filesystem::path file = options.out.empty() ? first / "report.html" : std::filesystem::path(options.out);
     write_file(file, report::html_report(recordings, {}, std::filesystem::absolute(file).parent_path()));
     base::print_note(options.quiet, fmt::format("report: {}", file.string()));
-    const std::vector<std::string> faults =
-        gate ? report::gate_failures(recordings, *gate) : std::vector<std::string>();
+    const std::vector<report::ComparedFlight> flights =
+        report::compared_flights(recordings, &settings::comparison_role);
+    const report::GateResult gate_result =
+        gate ? report::gate_result(recordings, flights, *gate) : report::GateResult();
     if (options.json) {
         base::JsonValue list = base::JsonValue::list({});
         std::ranges::for_each(recordings, [&](const auto& each) { list.push_back(results_of_run(each)); });
-        base::print_value({{"report", file.string()}, {"recordings", list}, {"gate_faults", faults}}, true);
+        base::print_value({{"report", file.string()}, {"recordings", list}, {"gate_faults", gate_result.failures},
+                              {"gate_undecided", gate_result.undecided}},
+            true);
     } else {
         for (const report::LoadedRecording& recording : recordings) {
             if (!recording.disagreement.empty()) {
@@ -73,11 +78,14 @@ void make_report(const ReportOptions& options) {
                 std::fputs(line.c_str(), stdout);
             }
         }
-        for (const std::string& fault : faults) { std::fputs((fault + "\n").c_str(), stdout); }
+        for (const std::string& line : gate_result.failures) { std::fputs((line + "\n").c_str(), stdout); }
+        for (const std::string& line : gate_result.undecided) {
+            std::fputs(fmt::format("cannot tell: {}\n", line).c_str(), stdout);
+        }
     }
     const bool cut =
         std::ranges::any_of(recordings, [](const auto& recording) { return !recording.disagreement.empty(); });
-    if (!faults.empty() || cut) { throw CheckFailed(); }
+    if (!gate_result.failures.empty() || cut) { throw CheckFailed(); }
 }
 
 } // namespace

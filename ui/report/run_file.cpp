@@ -180,6 +180,7 @@ RunFile read_run_file(const std::filesystem::path& path) {
     append_rows(run.machine, member(json, "program"), "program.");
     append_rows(run.machine, member(json, "machine"), "");
     append_rows(run.facts, member(json, "facts"), "");
+    append_rows(run.inputs, member(json, "inputs"), "");
     for (const Json& note : member(json, "notes")) { run.facts.emplace_back("note", display_text(note)); }
     for (const Json& leg : member(json, "legs")) {
         run.legs.push_back({text_in(leg, "label"), number_in(leg, "time_s", 1e7)});

@@ -70,6 +70,7 @@ struct RunFile {
     NamedValues settings; ///< nested names joined by dots, lists by ", "
     NamedValues machine;  ///< program, machine and renderer
     NamedValues facts;
+    NamedValues inputs;         ///< as RunInfo::inputs
     MachineInfo machine_info;   ///< without cpu_times
     std::string device;         ///< as RunInfo::device
     std::string path_offset;    ///< "0, 0, 120 m"

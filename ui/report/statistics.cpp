@@ -131,15 +131,14 @@ Statistics statistics_of(std::span<const FrameRecord> records) {
     return times.statistics();
 }
 
-namespace {
-
-/// With the decimals of frames.csv, so that there are not many different ones.
 std::array<double, 5> stages_of(const FrameRecord& record) {
     constexpr double decimals = 1e4;
     const double timed_ms = record.sim_ms + record.plan_ms + record.draw_ms + record.read_ms;
     return {record.sim_ms, record.plan_ms, record.draw_ms, record.read_ms,
         std::round(std::max(0.0, record.frame_ms - timed_ms) * decimals) / decimals};
 }
+
+namespace {
 
 std::size_t index_of_greatest(const std::array<double, 5>& values) {
     return static_cast<std::size_t>(std::max_element(values.begin(), values.end()) - values.begin());

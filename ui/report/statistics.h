@@ -88,6 +88,9 @@ Statistics statistics_of_times(std::span<const double> frame_ms);
 /// The stages of a frame; `other` is the rest of frame_ms, which none of the four stages covers.
 inline constexpr std::array<std::string_view, 5> stage_names{"sim", "plan", "draw", "read", "other"};
 
+/// The times of a frame's stages with the decimals of frames.csv, so that there are not many different ones.
+std::array<double, stage_names.size()> stages_of(const FrameRecord& record);
+
 /// A slow frame and why.
 struct SlowFrame {
     FrameRecord record;

@@ -41,6 +41,17 @@ void find_from(const fs::path& folder, const Names& built_in, std::string& name)
 
 } // namespace
 
+report::SettingRole comparison_role(std::string_view name) {
+    using enum SettingGroup;
+    auto role = report::SettingRole::Drawing;
+    visit_rows([&](const SettingInfo& row) {
+        if (row.name != name) { return; }
+        const bool is_drawing = row.group == Surface || row.group == Shading || row.group == Ground;
+        role = row.role.value_or(is_drawing ? report::SettingRole::Drawing : report::SettingRole::Scene);
+    });
+    return role;
+}
+
 SettingsChange change_between(const RunSettings& before, const RunSettings& after) {
     SettingsChange change = SettingsChange::None;
     visit_rows([&](const auto& row) {

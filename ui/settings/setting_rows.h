@@ -1,11 +1,13 @@
 #pragma once
 
 #include "ui/base/data_files.h"
+#include "ui/report/comparison.h"
 #include "ui/settings/settings.h"
 #include "ui/settings/settings_text.h"
 
 #include <array>
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -49,6 +51,8 @@ struct SettingBehaviour {
     bool set_by_window = false;
     /// One of the options that `--help` shows; `--help-all` shows all.
     bool common = false;
+    /// What it means to a comparison of flights, where that is not what its group says (comparison_role).
+    std::optional<report::SettingRole> role{};
 };
 
 /// Everything about a setting but where its value stands.
@@ -90,6 +94,7 @@ namespace rows {
 
 using enum SettingGroup;
 using enum SettingsChange;
+using report::SettingRole;
 using visuals::scene::AirSettings;
 using visuals::scene::GroundSettings;
 using visuals::scene::ShadingSettings;
@@ -186,16 +191,16 @@ inline constexpr std::tuple view{
         {.group = View, .change = Picture, .set_by_window = true, .common = true}),
     setting<&RunSettings::view, &ViewSettings::samples>(
         {"samples", "N", "samples per pixel: 1, 4 or 16 [raster: 16, gl: 1]", 1, 16, sample_counts},
-        {.group = View, .change = Picture, .start = 4.0}),
+        {.group = View, .change = Picture, .start = 4.0, .role = SettingRole::Drawing}),
     setting<&RunSettings::drawing, &DrawingSettings::renderer>(
         {"renderer", "KIND", "raster (software), gl (OpenGL) or auto (gl if there is a GPU)"},
-        {.group = View, .change = World, .set_by_window = true, .common = true}),
+        {.group = View, .change = World, .set_by_window = true, .common = true, .role = SettingRole::Drawing}),
     setting<&RunSettings::drawing, &DrawingSettings::raster_threads>(
         {"raster-threads", "N", "threads of the raster renderer [one per processor]", 1, 256},
-        {.group = View, .change = World, .set_by_window = true}),
+        {.group = View, .change = World, .set_by_window = true, .role = SettingRole::Drawing}),
     setting<&RunSettings::drawing, &DrawingSettings::context>(
         {"context", "KIND", "OpenGL context: osmesa (no GPU, no display), egl or window (the driver of the display)"},
-        {.group = View, .change = World, .set_by_window = true})};
+        {.group = View, .change = World, .set_by_window = true, .role = SettingRole::Drawing})};
 
 /// Which frames are drawn, and how fast.
 inline constexpr std::tuple time{
@@ -218,16 +223,16 @@ inline constexpr std::tuple time{
     setting<&RunSettings::time, &TimeSettings::warm_up>(
         {"warm-up", "N", "number of first frames that statistics leave out", 0, 1000000},
         {.group = Time, .change = Recording}),
-    setting<&RunSettings::time, &TimeSettings::realtime>(
-        {"realtime", "", "pace frames to the wall clock"}, {.group = Time, .change = Recording}),
+    setting<&RunSettings::time, &TimeSettings::realtime>({"realtime", "", "pace frames to the wall clock"},
+        {.group = Time, .change = Recording, .role = SettingRole::Drawing}),
     setting<&RunSettings::time, &TimeSettings::pictures>(
         {"pictures", "N", "with --record: write every Nth frame as PNG; 0 = none [one per simulated second]", 0,
             100000000},
-        {.group = Time, .change = Recording, .start = 60.0}),
+        {.group = Time, .change = Recording, .start = 60.0, .role = SettingRole::Ignored}),
     setting<&RunSettings::adapt>({"adapt", "WHAT,...",
                                      "adapt to the frame time: terrain (triangles, 1/8 to 4 times --triangles), "
                                      "shading (share of smooth polygons) or none"},
-        {.group = Time, .change = Picture, .common = true})};
+        {.group = Time, .change = Picture, .common = true, .role = SettingRole::Drawing})};
 
 /// How hidden surfaces of aircraft are removed, and with which detail.
 inline constexpr std::tuple surface{
@@ -245,7 +250,7 @@ inline constexpr std::tuple surface{
     setting<&RunSettings::surface, &SurfaceSettings::order_cache>(
         {"order-cache", "DIR",
             "cache of painting orders and prepared meshes: a folder, user (octant/orders in the user cache) or none"},
-        {.group = Surface, .change = Recording}),
+        {.group = Surface, .change = Recording, .role = SettingRole::Ignored}),
     setting<&RunSettings::surface, &SurfaceSettings::shadows>(
         {"shadows", "", "shadows of aircraft on the ground"}, {.group = Surface, .change = Picture}),
     setting<&RunSettings::surface, &SurfaceSettings::effects>(
@@ -281,7 +286,7 @@ inline constexpr std::tuple shading{
         {"show-model", "WHAT",
             "colours on aircraft: none, shading (smooth blue, flat orange) or levels (a colour per halving of the mesh "
             "error, white for none)"},
-        {.group = Shading, .change = Picture})};
+        {.group = Shading, .change = Picture, .role = SettingRole::Scene})};
 
 /// How the ground is refined.
 inline constexpr std::tuple ground{setting<&RunSettings::ground, &GroundSettings::lod>(
@@ -303,7 +308,7 @@ inline constexpr std::tuple ground{setting<&RunSettings::ground, &GroundSettings
         {.group = Ground, .change = Picture}),
     setting<&RunSettings::ground, &GroundSettings::earth_curvature>(
         {"earth-curvature", "", "screen-error: lower distant ground and aircraft by d^2 / 2R"},
-        {.group = Ground, .change = Picture}),
+        {.group = Ground, .change = Picture, .role = SettingRole::Scene}),
     setting<&RunSettings::ground, &GroundSettings::near_detail>(
         {"near-detail", "", "screen-error: procedural ground detail near the eye; height queries ignore it"},
         {.group = Ground, .change = Picture}),
@@ -318,11 +323,11 @@ inline constexpr std::tuple ground{setting<&RunSettings::ground, &GroundSettings
             "a runway of 1,800 x 45 m on levelled ground where the path begins, or near its first 15 km where less "
             "levelling is needed; fails if no site within 6 km needs less than 15 m. Height queries return the "
             "levelled ground"},
-        {.group = Ground, .change = World}),
+        {.group = Ground, .change = World, .role = SettingRole::Scene}),
     setting<&RunSettings::ground, &GroundSettings::show_mesh>(
         {"show-mesh", "WHAT",
             "edges of the ground triangles: none, edges or levels (a colour per halving of their size)"},
-        {.group = Ground, .change = Picture})};
+        {.group = Ground, .change = Picture, .role = SettingRole::Scene})};
 
 /// Sky, haze, sun and the colours of the ground.
 inline constexpr std::tuple air{
@@ -353,7 +358,7 @@ inline constexpr std::tuple air{
         {.group = Air, .change = Light}),
     setting<&RunSettings::air, &AirSettings::relief_shadows>(
         {"relief-shadows", "", "shadows of the ground on itself, and darker hollows"},
-        {.group = Air, .change = Picture}),
+        {.group = Air, .change = Picture, .role = SettingRole::Drawing}),
     setting<&RunSettings::air, &AirSettings::clouds>(
         {"clouds", "SHARE", "share of the sky that a thin layer of clouds covers", 0.0, 1.0},
         {.group = Air, .change = Picture}),
@@ -371,7 +376,7 @@ inline constexpr std::tuple air{
         {"ground-shading", "KIND",
             "vertex: light at each vertex; texture: light at each pixel (2 to 3 times the frame time without a GPU); "
             "auto: texture with a drape or a GPU"},
-        {.group = Air, .change = World}),
+        {.group = Air, .change = World, .role = SettingRole::Drawing}),
     setting<&RunSettings::air, &AirSettings::drape>(
         {"drape", "FILE",
             "image over the ground: placed by its coordinate system, or from edge to edge, north up, if it names none"},
@@ -428,6 +433,10 @@ void visit_old_rows(Visit&& visit) {
 /// Returns what must be made anew when the settings change from `before` to `after`: the greatest change of all rows
 /// whose values differ.
 SettingsChange change_between(const RunSettings& before, const RunSettings& after);
+
+/// What a setting means to a comparison of flights: all about path, view, frames and air is the scene, all about
+/// surfaces, shading and ground is drawing, but for the rows that say otherwise. A name of earlier versions is drawing.
+report::SettingRole comparison_role(std::string_view name);
 
 /// Sets one setting by its name, also an old one, as words on a command line would; only lists take several. Throws
 /// Error "NAME: expected ..., got ..." and for a name that no setting has. Returns the note for a value under an old
