@@ -1,8 +1,8 @@
 // Finds the orders of a model by the paper or exactly. The exact method first cuts polygons that pass through one
 // another (split.cpp), then divides eye space (view_space_tree.cpp). Where that search is given up (SearchGivenUp),
-// polygons are split by planes (bsp_order.cpp) for the eyes of the cells without a list. Polygons are split for all eyes
-// where no cell was found, where lists of cells are wrong, or where this takes fewer splits than the search made. The
-// result is tested before it is used (order_ray_test.cpp).
+// polygons are split by planes (bsp_order.cpp) for the eyes of the cells without a list. Polygons are split for all
+// eyes where no cell was found, where lists of cells are wrong, or where this takes fewer splits than the search made.
+// The result is tested before it is used (order_ray_test.cpp).
 #include "visuals/draworder/ordered_model.h"
 
 #include "models/planar/planar_model.h"
