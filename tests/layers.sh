@@ -23,16 +23,16 @@ asan() {
   ctest --preset asan -j "$jobs" --no-tests=error
 }
 
-# Whose threads are looked at: worker teams, meshing ahead, loading, rendering, links.
-threaded_rooms=(sim sim/links models/heights models/procedural models/simplify models/measure visuals/draworder
+# The modules whose tests the thread sanitizer runs: worker teams, meshing ahead, loading, rendering, links.
+threaded_modules=(sim sim/links models/heights models/procedural models/simplify models/measure visuals/draworder
   visuals/separation visuals/ordercache visuals/terrain visuals/groundfile visuals/nature visuals/landscape
   visuals/planning visuals/raster ui/world ui/flight)
 
 tsan() {
-  local room programs=() names=()
-  for room in "${threaded_rooms[@]}"; do
-    programs+=("${room//\//_}_unit_tests")
-    names+=("^$room:")
+  local module programs=() names=()
+  for module in "${threaded_modules[@]}"; do
+    programs+=("${module//\//_}_unit_tests")
+    names+=("^$module:")
   done
   built tsan octant "${programs[@]}"
   export TSAN_OPTIONS="suppressions=$PWD/tests/tsan.supp halt_on_error=1 second_deadlock_stack=1"

@@ -45,8 +45,8 @@ struct GridWindow {
 void check_height(const std::filesystem::path& file, double height_m, double raw, bool declares_unit,
     const Ellipsoid& ellipsoid = {});
 
-/// Opens a file with any of GDAL's drivers. The contract is that of read_height_field (height_field_import.h), except
-/// that the size is not checked.
+/// Opens a file with any of GDAL's drivers. The contract is that of read_height_field (height_source.h), except that
+/// the size is not checked.
 HeightRaster open_height_raster(const std::filesystem::path& file, const ImportOptions& options, GdalSession& gdal);
 
 /// All messages about a raster; complete after all heights have been read.

@@ -48,8 +48,7 @@ void check_coordinate_system(const ImportOptions& options);
 /// Each of several files must be georeferenced.
 class HeightSource {
 public:
-    /// Opens all files. Throws Error as read_height_field (height_field_import.h), and for files that do not fit
-    /// together.
+    /// Opens all files. Throws Error as read_height_field() above, and for files that do not fit together.
     HeightSource(std::vector<std::filesystem::path> files, const ImportOptions& options = {});
     ~HeightSource();
     HeightSource(HeightSource&&) = delete;

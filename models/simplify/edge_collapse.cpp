@@ -4,8 +4,8 @@
 // - By quadrics: the cost is the quadric itself, as in M. Garland, P. Heckbert, "Surface Simplification Using Quadric
 //   Error Metrics", 1997, weighted by area. It is cheap and serves while errors are far below those at the goal.
 // - By samples: the cost is how much the error against samples of the original grows, both ways (local_error.cpp). As
-//   it is expensive, it is evaluated lazily: a collapse marks the edges around it as unchecked, and an unchecked edge
-//   is evaluated anew when its old cost reaches the top of the heap.
+//   it is expensive, it is evaluated lazily: a collapse makes the costs of the edges around it old (Known::Old), and an
+//   old cost is measured anew when it reaches the top of the heap.
 #include "models/simplify/edge_collapse.h"
 
 #include "models/measure/triangle_bvh.h"
@@ -129,11 +129,11 @@ private:
         return local == nullptr ? TopologyChanges::Holes : TopologyChanges::HolesAndHandles;
     }
 
-    /// How the cost of an edge was found.
+    /// How the cost of an edge in the heap was found.
     enum class Known : std::uint8_t {
         Old,     ///< A guess, or what was found before something changed nearby.
-        Forward, ///< From the samples to the triangles.
-        Both     ///< Also from the triangles to the original.
+        Forward, ///< By quadrics: the present cost. By samples: measured from the samples to the triangles.
+        Both     ///< By samples only: measured also from the triangles to the original.
     };
 
     bool is_met(const Goal& goal) const;
@@ -168,7 +168,7 @@ private:
     EdgeHeap heap_;
     std::vector<Known> known_; ///< For each edge.
     Known first_known_;        ///< What is found out about an edge at first.
-    /// For each vertex whether an edge at it was taken out of the heap, as it may not collapse.
+    /// By quadrics: for each vertex whether next_edge() took an edge at it out of the heap, as it may not collapse.
     std::vector<std::uint8_t> has_refused_;
     HalfEdge measured_ = none; ///< The edge whose collapse local_ measured last; none = it changed.
     Known measured_known_ = Known::Old;
@@ -348,7 +348,9 @@ void EdgeCollapse::collapse(HalfEdge h) {
     const std::uint32_t gone = mesh.target(h);
     const VertexPlacement placement = collapsing_.quadrics().placement(surface_, h);
     effect_ = surface_.effect_of(h, changes_);
-    if (effect_.kind == CollapseEffect::Kind::NotAllowed) { // A handle was cut elsewhere.
+    if (effect_.kind == CollapseEffect::Kind::NotAllowed) {
+        // This edge would cut a handle. Since it was measured, another cut has taken the free vertex slot, or has
+        // changed the surface so that this one would divide it in two.
         heap_.remove(h);
         return;
     }
@@ -409,8 +411,9 @@ void EdgeCollapse::separate_cut_vertex(std::uint32_t vertex) {
     }
 }
 
-/// Updates the edges at a vertex. Edges one ring further are marked as unchecked where samples count, and where edges
-/// were refused, which may collapse now.
+/// Updates the edges at a vertex. The costs of the edges at its neighbours become old: by samples at all of them, by
+/// quadrics at those with a refused edge (has_refused_). Refused edges come back into the heap, as they may collapse
+/// now.
 void EdgeCollapse::update_around(std::uint32_t vertex) {
     const CollapsibleMesh& mesh = surface_.mesh;
     mesh.edges_around(vertex, [&](HalfEdge h) {

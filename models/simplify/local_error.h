@@ -55,9 +55,10 @@ struct ColouredTriangle {
 /// points of the new triangles to the original (backward). The vertex that a step moves or makes is corner 0 of each
 /// new triangle.
 ///
-/// Calls for a step: gather() the triangles that change; set_ring() or set_triangles(); forward_error() and fit() for
-/// the vertex's position, move_corner() there; measured() for the error; if the step is made, keep() after the change
-/// of the mesh.
+/// Calls for a step of Optimizer: gather() the triangles that change; set_ring() or set_triangles(); forward_error()
+/// and fit() for the vertex's position, move_corner() there; measured() for the error; if the step is made, keep()
+/// after the change of the mesh. Calls for a collapse, whose vertex is placed by quadrics: gather(), set_ring(),
+/// forward_error(), backward_error(), and keep() after the change of the mesh.
 class LocalError {
 public:
     LocalError(const WorkingSurface& surface, SurfaceSamples& samples, const OriginalSurface& original)
@@ -76,19 +77,20 @@ public:
     void set_triangles(std::span<const ColouredTriangle> triangles, std::span<const std::uint32_t> near);
 
     /// Measures the backward errors of all present triangles and the colour errors of their samples. Returns the
-    /// largest squared backward distance.
+    /// largest squared backward distance, with what backward_error() adds.
     double measure_all_back();
 
     /// Measures from the samples to the new triangles.
     double forward_error();
 
-    /// Measures from the new triangles to the original, until the sum exceeds `limit`.
+    /// Measures from the new triangles to the original, until the sum exceeds `limit`. Where the original faces against
+    /// a triangle at the foot of one of its inner points, the triangle's area is added to the squared distance.
     double backward_error(double limit = std::numeric_limits<double>::infinity());
 
     /// The sum of both errors; only a lower bound if it exceeds `limit`.
     double measured(double limit = std::numeric_limits<double>::infinity());
 
-    /// The largest squared distance of the last measurement, in both directions.
+    /// The largest squared distance of the last measurement, in both directions, with what backward_error() adds.
     double max_distance2() { return std::max(max_there2(), max_back2_); }
 
     /// The sum of the present errors of the loaded triangles.

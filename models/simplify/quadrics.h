@@ -50,8 +50,10 @@ glm::dvec3 solved(const Quadric& matrix, const glm::dvec3& right_side, const glm
 struct VertexPlacement {
     glm::dvec3 place{0.0};
     glm::dvec3 colour{0.0};
-    double cost = 0.0;   ///< The weighted sum of squared distances, colours included.
-    double weight = 0.0; ///< The area that the sum runs over.
+    double cost = 0.0; ///< The weighted sum of squared distances, colours included.
+    /// The trace of the summed quadrics: a third of the area of each triangle, and the weights of constraint planes and
+    /// of colour gradients. cost / weight is a mean squared distance.
+    double weight = 0.0;
 };
 
 /// The weights of constraint planes, which are perpendicular to the surface along special edges, in squares of the

@@ -30,8 +30,9 @@ namespace octant::models::simplify {
 
 namespace {
 
-/// Collapses are chosen by samples where at most so many times the wanted triangles are left.
-constexpr std::size_t sampled_faces = 3;
+/// Where a number of triangles is wanted, collapses are chosen by quadrics while more than so many times that number,
+/// and more than `min_sampled_faces`, are left; then by samples.
+constexpr std::size_t sampled_faces_per_wanted = 3;
 constexpr std::size_t min_sampled_faces = 2000;
 
 /// How many samples stand for a surface: some dozens for each triangle that is to be left.
@@ -346,7 +347,7 @@ Simplified simplify_to_count(const TriangleMesh& original, const SimplifyOptions
     const double start_s = process_cpu_s();
     Simplification work(original, options);
     const std::size_t faces = target_faces(options.goal);
-    work.approach({{}, std::max(sampled_faces * faces, min_sampled_faces), {}}, faces);
+    work.approach({{}, std::max(sampled_faces_per_wanted * faces, min_sampled_faces), {}}, faces);
     work.collapse(options.goal);
     const double collapsed_s = process_cpu_s();
     work.tell(result);

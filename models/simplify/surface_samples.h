@@ -93,6 +93,8 @@ struct Penalty {
 /// The nearest point of the original to a point of the current surface.
 struct BackwardFoot {
     OriginalPoint foot;
+    /// The squared distance. From an inner point of a triangle against which the original faces there: plus the area of
+    /// that triangle (LocalError::backward_error).
     float distance2 = 0.0F;
 };
 

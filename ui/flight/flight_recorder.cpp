@@ -89,8 +89,9 @@ void write_tracks(const std::filesystem::path& folder, const world::World& world
     write_file(folder / "track.acmi", flightpaths::track_acmi(flight, acmi_header(world, flight, frame)));
 }
 
-/// The tracks of a flight while it is flown, in track.csv and track.acmi. Each is handed to the system at the latest
-/// every second, so that the tracks of a killed flight go no further than it came. Throws Error (disk full).
+/// The tracks of a flight while it is flown, in track.csv and track.acmi. Each is given only what has been flown, and
+/// is flushed at the first picture and then once a simulated second, so that a killed flight leaves its tracks up to
+/// the last flush. Throws Error (disk full).
 class TrackFiles {
 public:
     TrackFiles() = default;

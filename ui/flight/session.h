@@ -27,16 +27,17 @@
 
 namespace octant::ui::flight {
 
-/// The loop of a run: each frame goes from the simulation through the plan and the picture to its record. Simulation
-/// moves the aircraft, QualityController chooses the number of triangles, FrameRenderer makes the picture.
+/// Makes the frames of a run, one a call: each goes from the simulation through the plan and the picture to its record.
+/// Simulation moves the aircraft, QualityController chooses the number of triangles, FrameRenderer makes the picture.
 ///
 /// A flight without a window is frames() pictures by draw(frame). A window or a live flight asks for pictures of its
 /// own times by draw_at(), and changes settings and simulation between them.
 class Session {
 public:
-    /// Loads the world and draws once in every drawing state, with this renderer, which must be of the settings'
-    /// picture size, or with one that it makes as the settings say. Loads no world where it is given one, which must be
-    /// of these settings but for the view's. Throws Error. Stays in its place: parts of it point at others.
+    /// Loads the world, loads the models and the ground texture into the renderer, and warms the renderer up
+    /// (Renderer::warm_up). The renderer is the given one, which must be of the settings' picture size, or one made as
+    /// the settings say. A given world, which must be of these settings but for the view's, is not loaded again. Throws
+    /// Error. A session cannot be moved, because parts of it point at others.
     explicit Session(const settings::RunSettings& settings, PictureContent content = PictureContent::World,
         std::unique_ptr<visuals::scene::Renderer> renderer = nullptr,
         std::optional<world::World> loaded = std::nullopt);
@@ -65,7 +66,7 @@ public:
     /// The source flies all aircraft from now on, whatever is loaded anew. It must outlive the session.
     void set_state_source(StateSource& source);
 
-    // The loop.
+    // Frames.
 
     /// Number of frames of the run.
     int frames() const { return static_cast<int>(times_.times_s.size()); }
@@ -77,9 +78,9 @@ public:
     /// targets in place of those that --adapt would choose by the clock.
     void replay(std::vector<QualityTargets> quality_targets);
 
-    /// Before the first draw(): draws only this part of the frames, as if those before it had been drawn. What later
-    /// pictures depend on is planned of them, and the last one whole. Returns the part's frames; frames() then ends
-    /// with it. Throws Error where there are fewer frames than parts.
+    /// Before the first draw(): draws only this part of the frames, as if those before it had been drawn. Of the frames
+    /// before it only that is planned on which later pictures depend; the last of them is planned whole. Returns the
+    /// part's frames; frames() then ends with it. Throws Error where there are fewer frames than parts.
     settings::FrameRange begin_frame_range(const settings::FlightPart& part);
 
     /// Simulates up to the frame's time, plans, draws and reads the picture. Frames come in order.
@@ -140,7 +141,7 @@ public:
     const std::optional<visuals::shading::ShadingState>& shading() const { return quality_controller_.shading(); }
 
 private:
-    // The loop.
+    // Frames.
     world::RenderDevice render_device() const;
     void release_texture_memory();
     void start_flight();

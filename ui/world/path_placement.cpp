@@ -414,7 +414,7 @@ heights::RunwayRequest runway_request_of(const sim::Trajectory& path, double wat
 /// Throws Error for a site that is none, or too rough.
 void check_site(const std::optional<heights::RunwaySite>& site) {
     const std::string expected =
-        fmt::format("--airfield: expected ground within {:.0f} km of the path on which a runway of 1,800 m "
+        fmt::format("--show airfield: expected ground within {:.0f} km of the path on which a runway of 1,800 m "
                     "needs cuttings and embankments of at most {:.0f} m",
             heights::runway_search_radius_m / 1000.0, heights::max_earthwork_m);
     if (!site) { throw Error(fmt::format("{}, got only water or the edge of the map", expected)); }

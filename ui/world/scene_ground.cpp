@@ -156,7 +156,8 @@ HeightField field_of(const terrain::GroundTiles& tiles) {
 void check_samples(std::int64_t columns, std::int64_t rows) {
     constexpr std::int64_t most = std::int64_t{16385} * 16385;
     if (columns * rows > most) {
-        throw Error(fmt::format("--airfield: expected at most {} samples of ground, got {} x {}", most, columns, rows));
+        throw Error(
+            fmt::format("--show airfield: expected at most {} samples of ground, got {} x {}", most, columns, rows));
     }
 }
 
@@ -237,7 +238,7 @@ SceneGround load_scene_ground(
     if (settings::has_no_detail_levels(settings.path.terrain)) {
         if (find_runway) {
             throw Error(
-                fmt::format("--airfield: expected ground that can be levelled, got '{}'", settings.path.terrain));
+                fmt::format("--show airfield: expected ground that can be levelled, got '{}'", settings.path.terrain));
         }
         return load_polygons(settings);
     }

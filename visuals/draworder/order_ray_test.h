@@ -11,7 +11,7 @@ namespace octant::visuals::draworder {
 
 /// Which eyes and polygons a ray test covers.
 struct RayTestOptions {
-    /// Whether parts with a pivot are looked at, at four angles. Without them, where no order can be right for them.
+    /// Whether parts with a pivot are tested, at four angles. False where no order can be right for them.
     bool turning_parts = true;
     /// Eyes are at least so far from where octants meet: |x| + |y| + |z| from there, metres.
     double min_distance_m = 0.0;

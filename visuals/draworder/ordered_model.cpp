@@ -1,7 +1,8 @@
 // Finds the orders of a model by the paper or exactly. The exact method first cuts polygons that pass through one
-// another (split.cpp), then divides eye space (view_space_tree.cpp). Where that search ends, or splits more polygons
-// than needed, the polygons are split by planes (bsp_order.cpp). The result is tested before it is used
-// (order_ray_test.cpp).
+// another (split.cpp), then divides eye space (view_space_tree.cpp). Where that search is given up (SearchGivenUp),
+// polygons are split by planes (bsp_order.cpp) for the eyes of the cells without a list. Polygons are split for all
+// eyes where no cell was found, where lists of cells are wrong, or where this takes fewer splits than the search made.
+// The result is tested before it is used (order_ray_test.cpp).
 #include "visuals/draworder/ordered_model.h"
 
 #include "models/planar/planar_model.h"
@@ -73,7 +74,8 @@ OrderedModel completed(CellSearchResult found, int penetrating, std::string& rea
 /// Tests an order; returns whether it may be used.
 bool is_right(OrderedModel& ordered, double search_s, const DrawOrder* proved_order = nullptr) {
     const bool is_large = ordered.model.polygons.size() > max_polygons_searched;
-    // Where no order is right for turning parts, they say nothing about the others.
+    // Up to here notes tell only of turning parts for which no order is right. Where there are any, no part with a
+    // pivot is tested, because its rays may be wrong whatever the order of the other parts.
     ordered.ray_test = ray_test_order(ordered.model, ordered.order,
         {.turning_parts = ordered.notes.empty(),
             .min_distance_m = ordered.min_distance_m,

@@ -28,8 +28,9 @@ struct OrderedModel {
     /// The model, with polygons split where no order exists otherwise; its parents are the polygons they are pieces of.
     models::polygons::PolygonModel model;
     DrawOrder order;
-    std::vector<OrderCell> cells = {}; ///< By cell of the order; empty where the order splits polygons.
-    glm::dvec3 centre_m{0.0};          ///< Paper, Cells: where the octants meet.
+    /// By cell of the order; empty where `found_by` is Parts or TreeAndSplitPolygons.
+    std::vector<OrderCell> cells = {};
+    glm::dvec3 centre_m{0.0}; ///< Paper, Cells: where the octants meet.
     /// Paper, Cells: the orders hold for |x|+|y|+|z| >= this, from centre_m.
     double min_distance_m = 0.0;
     int splits = 0;                      ///< How many polygons were added by splitting.

@@ -2,8 +2,9 @@
 // the viewing directions until all hidden surfaces are removed; here eye space is divided by planes until each cell's
 // occlusion graph has no cycle.
 //
-// The search is greedy: at a node the plane that leaves least of the cycles divides it (best_split). Before that, an
-// eye in the middle of the node is looked at: if it already sees a cycle, no plane can help, and a polygon is split.
+// The search is greedy: at a node the plane that leaves least of the cycles divides it (SplitPlaneChooser::best).
+// Before that, an eye in the middle of the node is looked at: if it already sees a cycle, no plane can help, and a
+// polygon is split.
 #include "visuals/draworder/view_space_tree.h"
 
 #include "sim/base/plane.h"
@@ -528,13 +529,13 @@ public:
             return found(node, depth);
         } catch (const SearchGivenUp& given_up) {
             if (given_up.is_worse_than_best) { throw; }
-            why_open_ = why_open_.empty() ? given_up.reason : why_open_;
-            return open_leaf(node);
+            incomplete_reason_ = incomplete_reason_.empty() ? given_up.reason : incomplete_reason_;
+            return incomplete_leaf(node);
         }
     }
 
     /// Why the search was given up first; empty if it was not.
-    const std::string& incomplete_reason() const { return why_open_; }
+    const std::string& incomplete_reason() const { return incomplete_reason_; }
 
 private:
     /// The branch of a node. Throws SearchGivenUp.
@@ -557,7 +558,7 @@ private:
     }
 
     /// The end of a branch where the search is given up.
-    std::unique_ptr<Branch> open_leaf(ViewCell& node) {
+    std::unique_ptr<Branch> incomplete_leaf(ViewCell& node) {
         work_.add_new_pieces(node);
         auto out = std::make_unique<Branch>();
         out->incomplete_cells = component_sets(graphs_, node);
@@ -613,7 +614,7 @@ private:
     const TreeSearch& search_;
     std::size_t entries_ = 0;
     std::size_t cells_ = 1; ///< Finished ones, and one for each branch that is still to grow.
-    std::string why_open_;
+    std::string incomplete_reason_;
 };
 
 /// Appends a branch to the arrays of the tree and returns its number as a child.
@@ -667,7 +668,7 @@ const std::array<TreeSearch, 4> tree_searches{{{.plane_search = {.power = 1.0}, 
 const TreeSearch quick_search{.plane_search = {.power = 3.0, .edge_planes = 300, .coarse_candidates = 48, .exact = 2},
     .keeps_partial_result = true};
 
-/// Whether one result is better: whole rather than open, fewer splits, then fewer cells.
+/// Whether one result is better: complete rather than incomplete, fewer splits, then fewer cells.
 bool is_better(const CellSearchResult& a, const CellSearchResult& b) {
     return std::pair(!a.tree.incomplete_reason.empty(), a.cost()) <
            std::pair(!b.tree.incomplete_reason.empty(), b.cost());

@@ -77,7 +77,7 @@ struct TreeSearch {
     /// Whether planes are tried before polygons are split, even where an eye in the middle of a region sees a cycle:
     /// more cells, sometimes fewer splits.
     bool prefers_planes = false;
-    /// Whether what was found is kept where the search is given up (ViewSpaceTree::open).
+    /// Whether the cells that were found are kept where the search is given up (ViewSpaceTree::incomplete_cells).
     bool keeps_partial_result = false;
     /// The search is given up as soon as its tree is sure to cost as much as this; then nothing of it is kept.
     std::optional<TreeCost> cost_limit = {};

@@ -54,7 +54,7 @@ struct PlanRequest {
 struct PlanCounts {
     landscape::GroundCounts ground;
     int aircraft_polygons = 0;
-    /// The cell of the first aircraft's draw order in which the eye is; 0 where it has parts.
+    /// The cell of the first aircraft's draw order in which the eye is; 0 unless DrawOrder::has_one_cell_per_eye.
     int draw_cell = 0;
     /// Ground triangles and aircraft polygons that are painted again, clipped.
     int cuts = 0;

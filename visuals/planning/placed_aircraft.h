@@ -37,7 +37,7 @@ struct PlacedAircraft : ViewedAircraft {
     std::span<const glm::dmat4> parts;
     /// True if the aircraft is absent (AircraftState::is_present): nothing of it is drawn.
     bool is_absent = false;
-    /// The cell of the draw order in which the eye is; 0 where the order has parts.
+    /// The cell of the draw order in which the eye is; 0 unless DrawOrder::has_one_cell_per_eye.
     int cell = 0;
     /// Index into AircraftModel::errors_m.
     std::size_t representation = 0;

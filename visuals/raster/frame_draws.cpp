@@ -170,8 +170,8 @@ void FrameDraws::add_aircraft(const FrameInput& input, const scene::AircraftDraw
     add_mesh(ranges_, model.vertices, state, style);
 }
 
-/// The corners between the first and the last that the triangles name are placed, once for all ranges: of an order by
-/// parts there may be thousands.
+/// Adds triangles of an aircraft. The corners between the first and the last that they name are projected once for all
+/// ranges, because an order that splits polygons may paint thousands of ranges.
 void FrameDraws::add_mesh(std::span<const std::span<const std::uint32_t>> ranges,
     std::span<const scene::ModelVertex> vertices, const AircraftDrawState& state, const DrawStyle& style) {
     std::uint32_t min = std::numeric_limits<std::uint32_t>::max();

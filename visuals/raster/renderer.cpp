@@ -3,8 +3,8 @@
 //   1 frame_draws      the plan's steps become slices of triangles, and blocks of vertices that are projected alike
 //   2 vertex_stage     vertices are projected to the screen, lit and hazed; ground_vertices does so for ground
 //   3 triangle_setup   triangles are clipped and get their edges and gradients, which triangle_planes computes
-//   4 triangle_binner  runs steps 1 to 3 on all threads and sorts the triangles into tiles
-//   5 tile_painter     paints one tile, from the nearest triangle to the farthest
+//   4 triangle_binner  runs step 1, then 2 and 3 on all threads, and sorts the triangles into tiles
+//   5 tile_painter     paints one tile, the plan's order in reverse: from the nearest triangle to the farthest
 //   6 *-inl.h          spans and texels of one triangle within a tile; tile_painter.cpp lists them
 #include "visuals/raster/renderer.h"
 

@@ -1,5 +1,6 @@
-// Step 4 of a picture (renderer.cpp): runs steps 1 to 3 on all threads, in batches of slices, and sorts the triangles
-// of each batch into tiles. Next: tile_painter.cpp.
+// Step 4 of a picture (renderer.cpp): runs step 1 on the calling thread, then step 2 on all threads in tasks of
+// vertices, then step 3 on all threads in batches of slices, and sorts the triangles of each batch into tiles. Next:
+// tile_painter.cpp.
 #include "visuals/raster/triangle_binner.h"
 
 #include "visuals/scene/frame_plan.h"

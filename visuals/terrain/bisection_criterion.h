@@ -282,7 +282,8 @@ public:
     /// The y coordinate of the field's south border relative to the eye.
     double south_m() const { return south_m_; }
 
-    /// The limit for a target error in pixels. A sample is in the mesh when its critical value is below the limit.
+    /// The limit for a target error in pixels, about (focal length / error)^2: a larger limit gives a finer mesh. A
+    /// sample is in the mesh when its critical value is below the limit.
     float limit_of(double error_px) const;
 
     /// The error in pixels that belongs to a limit.

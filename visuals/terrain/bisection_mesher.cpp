@@ -3,7 +3,8 @@
 //
 // A bisected field is a quadtree of fans around the centres of nodes: a fan's quadrant is left to the child if the
 // child's centre is in the mesh, and an edge has a mid-point if that sample is in the mesh. So no neighbour needs to be
-// asked, unlike in the paper's restricted quadtree. The order of drawing is that of paint_order.cpp.
+// asked, unlike in Roettger's restricted quadtree (quadtree_mesher.cpp). The order of drawing is that of
+// paint_order.cpp.
 //
 // Geomorphs: a vertex is drawn between its sample and the middle of its two ends. The ends are an edge's corners or,
 // for a child's centre, the parent's centre and the parent's corner; they are always an edge of the mesh without the
@@ -17,7 +18,7 @@
 // its distance, a vertex that lies d target errors from the middle of its ends moves by d / (1 - r) times that share at
 // most, and the errors of bisection_tile_builder.cpp keep d / (1 - r) small.
 //
-// Deviations:
+// Deviations from Lindstrom and Pascucci:
 // - Where the field's end cuts a node, the mesh is that of the padded square (bisection_tiles.h), and
 //   its triangles are cut off at the border (fan_triangles.cpp).
 // - Corners and centre of the root are always in the mesh, at their samples.
@@ -118,9 +119,11 @@ std::uint32_t BisectionMesher::fixed_vertex(GridSample at, std::int16_t height) 
     return add_vertex({at, vertex_count_, vertex_count_, height, 1.0F});
 }
 
-/// The weight of a vertex; `share_below` tells r where it is needed.
+/// The weight w of a vertex with a critical value (the head of this file). `share_below` tells r where it is needed.
 template <typename ShareBelow>
 inline float BisectionMesher::weight_of(float critical, const ShareBelow& share_below) const {
+    // f^2 of the head: a limit falls with the square of the error in pixels (BisectionCriterion::limit_of), as a
+    // critical value does.
     const float over = morph_limit_ / critical;
     if (over >= morph_ratio * morph_ratio) { return 1.0F; }
     const float below = std::max(share_below(), 1.0F / morph_ratio);

@@ -38,8 +38,9 @@ inline constexpr double near_margin_px = 2.0;
 /// frame to frame; otherwise proportional to the target error.
 double margin_share(const ErrorTarget& target);
 
-/// A node whose fan is in the mesh at some limits. The limits of its members are the smallest at which each part
-/// exists.
+/// A node whose fan is in the mesh at some limits. A limit is about (focal length / error in pixels)^2
+/// (BisectionCriterion::limit_of), so that a larger one gives a finer mesh. The limits of the node's members are the
+/// smallest at which each part exists.
 struct alignas(64) BisectionNode {
     Float4 middle{};   ///< The mid-points of fan_edges.
     Float4 quadrant{}; ///< The fans of the children.

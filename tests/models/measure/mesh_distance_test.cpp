@@ -111,9 +111,9 @@ TEST_CASE("flats cut unlike each other take cuts by their triangles, not by thei
         TriangleMesh mesh = tests::plate(n);
         tests::Dice dice(seed);
         for (glm::dvec3& at : mesh.vertices_m) {
-            const double room = 4.0 * at.x * (1.0 - at.x) * at.y * (1.0 - at.y);
-            at.x += dice.between(-0.3, 0.3) / n * room;
-            at.y += dice.between(-0.3, 0.3) / n * room;
+            const double share = 4.0 * at.x * (1.0 - at.x) * at.y * (1.0 - at.y);
+            at.x += dice.between(-0.3, 0.3) / n * share;
+            at.y += dice.between(-0.3, 0.3) / n * share;
             at = {at.x, 0.6 * at.y - 0.8 * lifted_m, 0.8 * at.y + 0.6 * lifted_m};
         }
         return mesh;

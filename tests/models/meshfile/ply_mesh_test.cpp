@@ -127,7 +127,7 @@ TEST_CASE("a PLY header that promises more than the file holds is refused by its
     CHECK(refused_ply("ply\nformat binary_little_endian 1.0\nelement face 9000000000000000000\n" + ply_corners +
                       "end_header\nabc") ==
           "part.ply:3: expected at most 3 of 'face' in a file of this size, got 9000000000000000000");
-    // An element of nothing takes no room, but no time either.
+    // An element without properties takes no bytes, and must take no time either.
     CHECK(refused_ply(start + "element nothing 9000000000000000000\nend_header\n") ==
           "part.ply: expected at least one triangle, got none");
 }

@@ -144,8 +144,8 @@ TEST_CASE("ground with a runway is painted in order as the depth buffer shows it
 
 TEST_CASE("an airfield that cannot lie anywhere near is refused in one line") {
     tests::check_refused("fly", {"straight", "--terrain", "none", "--show", "airfield"},
-        "--airfield: expected ground that can be levelled, got 'none'");
+        "--show airfield: expected ground that can be levelled, got 'none'");
     tests::check_refused("fly",
         {"straight", "--terrain", tests::small_map(), "--ground-look", "water-level=9000", "--show", "airfield"},
-        "--airfield: expected ground within 6 km of the path");
+        "--show airfield: expected ground within 6 km of the path");
 }

@@ -17,7 +17,7 @@ TEST_CASE("a file too large for a library is refused at once, whichever library 
     for (const char* name : {"large.dae", "large.osg"}) {
         const std::filesystem::path file = tests::scratch_folder() / name;
         std::ofstream(file).close();
-        std::filesystem::resize_file(file, 1025 * mebibyte); // a hole: it takes no room
+        std::filesystem::resize_file(file, 1025 * mebibyte); // a hole: it takes no space on the disk
         CHECK(is_library_file(file));
         CHECK_THROWS_WITH(
             read_library_mesh(file), Contains(std::string(name) + ": expected at most 1073741824 bytes, got more"));

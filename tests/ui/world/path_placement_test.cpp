@@ -132,7 +132,7 @@ TEST_CASE("an airfield stays where it is when the ground is meshed or coloured a
 TEST_CASE("ground on which no airfield can lie is refused with what it would need") {
     CHECK_THROWS_WITH(ui::world::load_world(airfield_over(waves("rough.tif", 150.0))),
         Catch::Matchers::Matches(
-            "--airfield: expected ground within 6 km of the path on which a runway of 1,800 m "
+            "--show airfield: expected ground within 6 km of the path on which a runway of 1,800 m "
             "needs cuttings and embankments of at most 15 m, got [0-9]+ m at best; another --place "
             "may do"));
     RunSettings flooded = airfield_over(waves("gentle.tif", 5.0));
@@ -140,6 +140,6 @@ TEST_CASE("ground on which no airfield can lie is refused with what it would nee
     CHECK_THROWS_WITH(ui::world::load_world(flooded), Catch::EndsWith("got only water or the edge of the map"));
     for (const char* const terrain : {"none", "background60"}) {
         CHECK_THROWS_WITH(ui::world::load_world(airfield_over(terrain)),
-            std::string("--airfield: expected ground that can be levelled, got '") + terrain + "'");
+            std::string("--show airfield: expected ground that can be levelled, got '") + terrain + "'");
     }
 }

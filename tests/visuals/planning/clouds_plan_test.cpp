@@ -71,11 +71,11 @@ TEST_CASE("clouds come after what lies beyond them and before what lies on the e
         const auto step = [&](PaintStep::Content content) {
             return std::ranges::find(steps, content, &PaintStep::content) - steps.begin();
         };
-        const auto veil = step(PaintStep::Content::Transparent);
-        REQUIRE(static_cast<std::size_t>(veil) < plan.steps.size());
-        CHECK((step(PaintStep::Content::Ground) < veil) == (eye_m > clouds_m));
+        const auto clouds = step(PaintStep::Content::Transparent);
+        REQUIRE(static_cast<std::size_t>(clouds) < plan.steps.size());
+        CHECK((step(PaintStep::Content::Ground) < clouds) == (eye_m > clouds_m));
         const auto first = step(PaintStep::Content::Aircraft);
-        CHECK(first < veil); // the one beyond
+        CHECK(first < clouds); // the one beyond
         const std::uint32_t beyond = plan.aircraft[plan.steps[static_cast<std::size_t>(first)].first].first_part;
         CHECK(beyond == (eye_m > clouds_m ? 0U : 1U));
         CHECK(counts.transparent_triangles > 0);

@@ -85,11 +85,11 @@ TEST_CASE("an eye inside the box has nothing before it") {
     CHECK(before(around, {strip(0, 30, 50, -10, 60, 5)}).triangles.empty());
 }
 
-TEST_CASE("the room of the sight lines leaves out what lies under them") {
-    const ConvexVolume room = sight_volume_of(wings);
-    CHECK(may_intersect(room, {-1, 40, -1}, {1, 60, 1}));
-    CHECK_FALSE(may_intersect(room, {-5000, -5000, -50}, {5000, 5000, -2}));
-    CHECK_FALSE(may_intersect(room, {-5000, 20, -50}, {5000, 60, -1.0}));
-    CHECK_FALSE(may_intersect(room, {-5000, 120, -50}, {5000, 500, 50}));
-    CHECK_FALSE(may_intersect(room, {20, 20, -50}, {40, 80, 50}));
+TEST_CASE("the volume of the sight lines leaves out what lies under them") {
+    const ConvexVolume volume = sight_volume_of(wings);
+    CHECK(may_intersect(volume, {-1, 40, -1}, {1, 60, 1}));
+    CHECK_FALSE(may_intersect(volume, {-5000, -5000, -50}, {5000, 5000, -2}));
+    CHECK_FALSE(may_intersect(volume, {-5000, 20, -50}, {5000, 60, -1.0}));
+    CHECK_FALSE(may_intersect(volume, {-5000, 120, -50}, {5000, 500, 50}));
+    CHECK_FALSE(may_intersect(volume, {20, 20, -50}, {40, 80, 50}));
 }

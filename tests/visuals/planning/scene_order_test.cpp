@@ -65,8 +65,8 @@ Groups groups(std::size_t count, const std::function<bool(std::size_t, std::size
     return found;
 }
 
-/// The knots that no order can do without.
-Groups rings_of(const std::vector<OrientedBox>& boxes) {
+/// The groups that no order can do without: boxes that hide one another in a cycle.
+Groups cycles_of(const std::vector<OrientedBox>& boxes) {
     return groups(
         boxes.size(), [&](std::size_t a, std::size_t b) { return occlusion_pair(boxes[a], boxes[b]).a_occludes_b; });
 }
@@ -120,13 +120,13 @@ TEST_CASE("boxes whose spheres meet follow the plane between them") {
     CHECK(arranged({beam, plate}) == Groups{{0}, {1}});
 }
 
-TEST_CASE("boxes that meet become one knot and draw in what meets the two together") {
+TEST_CASE("boxes that intersect become one group and draw in what meets the two together") {
     const glm::dvec3 half(2.0);
     CHECK(arranged({box_around({0, 10, 0}, half), box_around({40, 10, 0}, half), box_around({3, 13, 0}, half)}) ==
           Groups{{1}, {0, 2}});
 }
 
-TEST_CASE("three bars each before the next become one knot, a chain of them does not") {
+TEST_CASE("three bars each before the next become one group, a chain of them does not") {
     // Seen along y: each bar's one end lies before its neighbour, its other end behind the other.
     const auto bar = [](double turn_rad, double lean_rad) {
         const glm::dquat turn = glm::angleAxis(turn_rad, glm::dvec3(0, 1, 0));
@@ -139,7 +139,7 @@ TEST_CASE("three bars each before the next become one knot, a chain of them does
     CHECK(arranged({bar(0.0, 0.3), bar(third, 0.3)}).size() == 2);
 }
 
-TEST_CASE("a box between two that meet is none of their knot") {
+TEST_CASE("a box between two that meet is not in their group") {
     // The corner between the two holds a third box, inside the box around both.
     const Groups overlap_groups = arranged(
         {box_around({0, 40, 0}, {10, 1, 1}), box_around({-10, 50, 0}, {1, 10, 1}), box_around({5, 50, 0}, {1, 1, 1})});
@@ -152,7 +152,7 @@ TEST_CASE("what two that meet hide and are hidden by joins them") {
     CHECK(overlap_groups == Groups{{0, 1, 2, 3}});
 }
 
-TEST_CASE("no knot hides part of a later one, and each is as small as can be") {
+TEST_CASE("no group hides part of a later one, and each is as small as can be") {
     PlaceDice dice(3);
     SceneOrder order;
     for (int scene = 0; scene < 100; ++scene) {
@@ -163,11 +163,11 @@ TEST_CASE("no knot hides part of a later one, and each is as small as can be") {
         }
         order.arrange(boxes);
         CHECK(wrong_pairs(boxes, order) == 0);
-        CHECK(members_of_each(order) == rings_of(boxes));
+        CHECK(members_of_each(order) == cycles_of(boxes));
     }
 }
 
-TEST_CASE("125 boxes close together in any attitudes make only the knots that they must") {
+TEST_CASE("125 boxes close together in any attitudes make only the groups that they must") {
     PlaceDice dice(1);
     std::vector<OrientedBox> boxes;
     for (int i = 0; i < 125; ++i) {
@@ -178,7 +178,7 @@ TEST_CASE("125 boxes close together in any attitudes make only the knots that th
     order.arrange(boxes);
     CHECK(wrong_pairs(boxes, order) == 0);
     const Groups overlap_groups = members_of_each(order);
-    CHECK(overlap_groups == rings_of(boxes));
+    CHECK(overlap_groups == cycles_of(boxes));
     CHECK(largest(meeting_groups(boxes)) > 1);
     CHECK(largest(overlap_groups) <= 2 * largest(meeting_groups(boxes)));
 }
