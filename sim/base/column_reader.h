@@ -55,6 +55,9 @@ public:
     /// True if the table has column `i` of find(). Only then are text() and number() allowed.
     bool has(std::size_t i) const { return field_of_[i].has_value(); }
 
+    /// True if the table has column `i` and the row is long enough for it.
+    bool reaches(std::size_t i) const { return has(i) && *field_of_[i] < fields_.size(); }
+
     std::string_view text(std::size_t i) const { return fields_[*field_of_[i]]; }
 
     /// Throws Error if the field is no finite number.

@@ -18,6 +18,7 @@ namespace {
 constexpr std::size_t max_source_line_bytes = 65535; ///< also of a word
 constexpr std::size_t source_piece_bytes = std::size_t{1} << 16U;
 constexpr std::string_view blanks = " \t\n\v\f\r";
+constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
 
 std::string_view without_blanks(std::string_view text) {
     text.remove_prefix(std::min(text.find_first_not_of(blanks), text.size()));
@@ -40,7 +41,7 @@ bool continues(std::string_view& line) {
 
 TextScanner::TextScanner(std::filesystem::path path, std::string_view text, const TextRules& rules, int line)
     : path_(std::move(path)), rules_(rules), text_(text), rest_(text), line_(line) {
-    if (text.starts_with("\xef\xbb\xbf")) { rest_.remove_prefix(3); }
+    if (text.starts_with(byte_order_mark)) { rest_.remove_prefix(byte_order_mark.size()); }
     const auto set = [&](std::string_view characters, CharClass kind) {
         for (const char c : characters) { classes_[static_cast<unsigned char>(c)] = kind; }
     };
@@ -114,6 +115,9 @@ bool TextScanner::next_line() {
     }
     current_line_ = raw_line();
     line_ = lines_read_;
+    if (source_ && line_ == 1 && current_line_.starts_with(byte_order_mark)) {
+        current_line_.remove_prefix(byte_order_mark.size());
+    }
     if (rules_.joins_lines && !is_comment_line(current_line_) && continues(current_line_)) {
         joined_ = current_line_;
         bool has_more = true;

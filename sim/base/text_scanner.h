@@ -40,8 +40,8 @@ public:
     /// for a longer line, a longer word is read as several words.
     TextScanner(std::filesystem::path path, TextSource source, const TextRules& rules = {});
 
-    /// Reads a file line by line as above. Throws Error if it is no regular file that can be read; next_line() throws
-    /// Error for a zero byte.
+    /// Reads a file line by line as above and skips a UTF-8 byte order mark. Throws Error if it is no regular file that
+    /// can be read; next_line() throws Error for a zero byte.
     static TextScanner of_file(const std::filesystem::path& path);
 
     /// Advances to the next line, without its line end (LF or CRLF); false if there is none.

@@ -276,6 +276,13 @@ TEST_CASE("a text that comes in pieces has the same words and lines as a text in
     TextScanner binary = TextScanner::of_file(path);
     CHECK(binary.next_line());
     CHECK_THROWS_WITH(binary.next_line(), path.string() + ": expected text, got binary data");
+    write_file(path, "\xef\xbb\xbf"
+                     "a\n\xef\xbb\xbf");
+    TextScanner marked = TextScanner::of_file(path);
+    REQUIRE(marked.next_line());
+    CHECK(marked.line() == "a");
+    REQUIRE(marked.next_line());
+    CHECK(marked.line() == "\xef\xbb\xbf");
 }
 
 TEST_CASE("tables are read by the names of their columns, and damage is named by line") {
@@ -285,6 +292,8 @@ TEST_CASE("tables are read by the names of their columns, and damage is named by
     CHECK(table.comment() == "# feet, degrees");
     constexpr std::array<TableColumn, 3> columns{{{"name", true}, {"height", true}, {"speed"}}};
     table.find(columns);
+    CHECK(table.reaches(1));
+    CHECK_FALSE(table.reaches(2));
     CHECK_FALSE(table.has(2));
     REQUIRE(table.next_row());
     CHECK(table.text(0) == "a;b");

@@ -33,12 +33,22 @@ struct ReportOptions : base::OutputOptions {
 
 base::JsonValue results_of_run(const report::LoadedRecording& recording) {
     const auto known = [](const std::string& text) { return text.empty() ? base::JsonValue() : base::JsonValue(text); };
-    return {{"folder", recording.display_name}, {"title", recording.run.title},
-        {"host", recording.run.machine_info.host}, {"frames", recording.flight.frames()},
-        {"ended_early", recording.ended_early}, {"stopped", known(recording.run.stopped)},
-        {"disagreement", known(recording.disagreement)}, {"noise", recording.run.noise},
-        {"state_hash", known(recording.run.state_hash)}, {"picture_hash", known(recording.run.picture_hash)},
+    return {{"folder", recording.display_name}, {"capture_format", known(recording.capture_format)},
+        {"title", recording.run.title}, {"host", recording.run.machine_info.host},
+        {"frames", recording.flight.frames()}, {"ended_early", recording.ended_early},
+        {"stopped", known(recording.run.stopped)}, {"disagreement", known(recording.disagreement)},
+        {"noise", recording.run.noise}, {"state_hash", known(recording.run.state_hash)},
+        {"picture_hash", known(recording.run.picture_hash)},
         {"summary", report::json_of(report::all_statistics(), recording.statistics)}};
+}
+
+/// Says what was left out, guessed or mended in frame times that another program recorded.
+void print_capture_notes(const ReportOptions& options, const report::LoadedRecording& recording) {
+    for (const auto& [name, value] : recording.run.facts) {
+        if (!recording.capture_format.empty() && name == "note") {
+            base::print_note(options.quiet, fmt::format("note: {}: {}", printable(recording.display_name), value));
+        }
+    }
 }
 
 void make_report(const ReportOptions& options) {
@@ -48,6 +58,7 @@ void make_report(const ReportOptions& options) {
     std::vector<report::LoadedRecording> recordings;
     for (const std::string& folder : options.folders) {
         recordings.push_back(report::load_recording(folder));
+        print_capture_notes(options, recordings.back());
         if (recordings.back().ended_early) {
             base::print_note(options.quiet,
                 fmt::format("note: {} ended early, after {} frames", folder, recordings.back().flight.frames()));
@@ -55,7 +66,7 @@ void make_report(const ReportOptions& options) {
     }
     const std::filesystem::path first = options.folders.front();
     if (options.out.empty() && std::filesystem::is_regular_file(first)) {
-        throw Error("--out: expected a file for the report of a packed recording, got none");
+        throw Error("--out: expected a file for the page, got none");
     }
     const std::filesystem::path file = options.out.empty() ? first / "report.html" : std::filesystem::path(options.out);
     write_file(file, report::html_report(recordings, {}, std::filesystem::absolute(file).parent_path()));
@@ -96,8 +107,9 @@ Command report_command() {
         .summary = "Writes report.html from one recording, or compares several side by side",
         .options = with_output_options(*options,
             {required(list_option("folders", "DIR...",
-                 "folders of recordings or packed recordings; recordings of killed flights work too", Arity::OneOrMore,
-                 options->folders)),
+                 "folders of recordings, packed recordings, or frame times that PresentMon, CapFrameX (CSV or JSON) or "
+                 "MangoHud recorded; recordings of killed flights work too",
+                 Arity::OneOrMore, options->folders)),
                 with_shown_default("report.html in the first folder",
                     text_option("--out", "FILE.html", "page to write", options->out)),
                 text_option("--gate", "FIGURE=N%,...",
@@ -105,10 +117,13 @@ Command report_command() {
                     options->gate)}),
         .footer = "Exit code 1 where a recording's rows are not those of its summary; the page is "
                   "written and says so.\n"
+                  "Of a file with frame times of several applications or swap chains only those of the swap chain "
+                  "with the most frames are taken.\n"
                   "Examples:\n"
                   "  octant report my-flight\n"
                   "  octant report octant-run depth-buffer-run --out both.html\n"
-                  "  octant report before after --gate p50=500%,p99=900% --out change.html",
+                  "  octant report before after --gate p50=500%,p99=900% --out change.html\n"
+                  "  octant report presentmon.csv mangohud.csv --out captures.html",
         .run = [options] { make_report(*options); }};
 }
 

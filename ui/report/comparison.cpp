@@ -4,6 +4,7 @@
 #include "sim/base/nearest_rank.h"
 #include "sim/base/random_generator.h"
 #include "sim/base/text_file.h"
+#include "ui/report/frame_capture.h"
 #include "ui/report/frame_csv.h"
 
 #include <algorithm>
@@ -478,6 +479,10 @@ std::vector<std::string> settings_that_differ(const LoadedRecording& first, cons
     std::vector<std::string> names;
     for (const std::string_view name : flight_settings) {
         if (value_of(first.run.settings, name) != value_of(second.run.settings, name)) { names.emplace_back(name); }
+    }
+    if (first.capture_format.empty() != second.capture_format.empty() ||
+        value_of(first.run.facts, application_fact) != value_of(second.run.facts, application_fact)) {
+        names.emplace_back(application_fact);
     }
     if (first.run.machine_info.cpu != second.run.machine_info.cpu ||
         first.run.machine_info.cores != second.run.machine_info.cores) {

@@ -106,6 +106,8 @@ void FlightAccumulator::add(const FrameRecord& record) {
     begin_s_ = frames_ == 0 ? at_s : begin_s_;
     end_s_ = at_s;
     ++frames_;
+    has_stages_ = has_stages_ || record.sim_ms + record.plan_ms + record.draw_ms + record.read_ms > 0.0 ||
+                  record.terrain_triangles > 0;
     times_.add(record);
     link.add(record);
     if (record.warm_up) {
@@ -239,10 +241,15 @@ double plot_ceiling_ms(const Statistics& statistics) {
 }
 
 std::vector<Plot> flight_plots(const FlightAccumulator& flight, double ceiling_ms) {
-    std::vector<Plot> plots = {frame_time_plot(flight, ceiling_ms), histogram_plot(flight.times()),
-        stage_plot(flight, ceiling_ms), curve_plot("Terrain triangles", "triangles", flight.triangles, green),
-        curve_plot("Change of terrain triangles from frame to frame", "triangles", flight.triangle_change, violet,
-            std::nullopt)};
+    std::vector<Plot> plots = {frame_time_plot(flight, ceiling_ms), histogram_plot(flight.times())};
+    if (!flight.has_stages()) {
+        plots.front().x_label = "time, s";
+        return plots;
+    }
+    plots.push_back(stage_plot(flight, ceiling_ms));
+    plots.push_back(curve_plot("Terrain triangles", "triangles", flight.triangles, green));
+    plots.push_back(curve_plot(
+        "Change of terrain triangles from frame to frame", "triangles", flight.triangle_change, violet, std::nullopt));
     if (flight.triangle_targets().varies()) {
         plots.push_back(curve_plot("Triangle target", "triangles", flight.triangle_target, amber));
         plots.push_back(curve_plot("Stress", "share of the frame", flight.stress, blue));

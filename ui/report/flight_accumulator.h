@@ -148,6 +148,9 @@ public:
 
     TargetRange triangle_targets() const;
 
+    /// False where no frame has the time of a stage or ground, as in frame times that another program recorded.
+    bool has_stages() const { return has_stages_; }
+
     Curve warm_up_ms; ///< frame times of the warm-up; all curves are over simulated time
     Curve frame_ms;
     Curve triangles;
@@ -163,6 +166,7 @@ private:
     int frames_ = 0;
     double begin_s_ = 0.0;
     double end_s_ = 0.0;
+    bool has_stages_ = false;
     FrameTimeHistogram times_;
     long reported_counts_ = 0;
     TargetRange targets_; ///< mean is the sum
@@ -173,9 +177,9 @@ private:
 /// that the curve would lie flat on the axis. Plots of several flights take the greatest, so that they compare by eye.
 double plot_ceiling_ms(const Statistics& statistics);
 
-/// The plots of a flight: frame time (warm-up apart), histogram, stages, terrain triangles, their change; where the
-/// triangle target moved also that target and the stress. A long flight is thinned to some thousand points: curves keep
-/// every peak, the stages are those of the longest frame of some in a row.
+/// The plots of a flight: frame time (warm-up apart), histogram; where it has stages these, terrain triangles, their
+/// change; where the triangle target moved also that target and the stress. A long flight is thinned to some thousand
+/// points: curves keep every peak, the stages are those of the longest frame of some in a row.
 std::vector<Plot> flight_plots(const FlightAccumulator& flight, double ceiling_ms);
 
 } // namespace octant::ui::report

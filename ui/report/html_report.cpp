@@ -120,15 +120,17 @@ std::string tile(std::string_view name, const std::string& value, std::string_vi
 /// Title, machine, faults and the most important figures of one flight.
 std::string overview(const LoadedRecording& recording) {
     const MachineInfo& machine = recording.run.machine_info;
-    std::string html = fmt::format("<p class=\"lead\">{}<br>{}, {} cores</p>\n",
-        escaped(title_of(recording) + ", " + machine.start_time_utc), escaped(machine.cpu), machine.cores);
+    const bool is_own = recording.capture_format.empty();
+    std::string html = fmt::format("<p class=\"lead\">{}<br>{}</p>\n",
+        escaped(title_of(recording) + ", " + (is_own ? machine.start_time_utc : recording.capture_format)),
+        escaped(is_own ? fmt::format("{}, {} cores", machine.cpu, machine.cores) : machine.cpu));
     const auto badge = [&](std::string_view text, bool bad) {
         html += fmt::format("<span class=\"badge{}\">{}</span>\n", bad ? " bad" : "", text);
     };
     const std::vector<Fault> faults = faults_of(recording);
     std::string explanations;
-    if (!recording.ended_early) { badge("ended", false); }
-    if (recording.run.noise.empty()) { badge("quiet machine", false); }
+    if (is_own && !recording.ended_early) { badge("ended", false); }
+    if (is_own && recording.run.noise.empty()) { badge("quiet machine", false); }
     for (const Fault& fault : faults) {
         badge(fault.word, true);
         explanations += fault.explanation;
@@ -198,7 +200,9 @@ std::string runs_table(Recordings recordings, const fs::path& page_folder) {
         row.push_back(styled({"pictures", recording.run.picture_hash.substr(0, 8)}, "code"));
         std::string condition;
         for (const Fault& fault : faults_of(recording)) { condition += (condition.empty() ? "" : ", ") + fault.word; }
-        row.push_back(condition.empty() ? Cell("condition", "good") : styled({"condition", condition}, "worse"));
+        row.push_back(condition.empty()
+                          ? Cell("condition", recording.capture_format.empty() ? "good" : recording.capture_format)
+                          : styled({"condition", condition}, "worse"));
         table.add(std::move(row));
     }
     table.note = "A click on a column's head sorts by it. States and pictures are the first eight digits of their "
@@ -404,6 +408,10 @@ std::string statistics_table(const LoadedRecording& recording) {
         table.add({{"Figure", statistic.name}, {"Value", statistic_text(statistic, recording.statistics)},
             styled({"Definition", statistic.definition}, "definition")});
     }
+    if (!recording.capture_format.empty()) {
+        table.note = "n is the number of frames counted. Frame times are as the other program measured them.";
+        return heading_html("Frame times") + card_html(html_of(table));
+    }
     table.note = "frame_ms runs from the start of the frame's simulation step to its pixels complete and read; writing "
                  "pictures and video is outside it. n is the number of frames counted. Stress (frames.csv) is the "
                  "share of a frame's time, the simulated time from it to the next, that frame_ms is; where the ground "
@@ -415,7 +423,7 @@ std::string overrun_summary(const LoadedRecording& recording) {
     const auto& counts = recording.flight.slow.above_16_ms();
     std::string text = fmt::format(
         "{} of {} frames took longer than 16.67 ms.", recording.statistics.overruns_16ms, recording.statistics.frames);
-    for (std::size_t i = 0; i < counts.size(); ++i) {
+    for (std::size_t i = 0; recording.flight.has_stages() && i < counts.size(); ++i) {
         if (counts[i] > 0) { text += fmt::format(" In {} of them {} took most.", counts[i], stage_names[i]); }
     }
     return "<p>" + text + "</p>\n";
@@ -425,11 +433,16 @@ ResultTable slowest_table(const LoadedRecording& recording) {
     ResultTable table;
     for (const SlowFrame& frame : recording.slowest) {
         const FrameRecord& record = frame.record;
-        std::vector<Cell> row = {{"frame", record.frame}, {"at, s", "{:.2f}", record.sim_time_s},
-            {"ms", "{:.2f}", record.frame_ms}, {"took most", stage_names[frame.longest_stage]},
-            {"ms", "{:.2f}", frame.stage_ms[frame.longest_stage]},
-            {"grew most over its median", "{} by {:.2f} ms", stage_names[frame.slowed_stage], frame.slowdown_ms},
-            {"triangles", record.terrain_triangles}, {"change", "{:+}", record.triangle_change}};
+        std::vector<Cell> row = {
+            {"frame", record.frame}, {"at, s", "{:.2f}", record.sim_time_s}, {"ms", "{:.2f}", record.frame_ms}};
+        if (recording.flight.has_stages()) {
+            row.emplace_back("took most", stage_names[frame.longest_stage]);
+            row.push_back({"ms", "{:.2f}", frame.stage_ms[frame.longest_stage]});
+            row.push_back(
+                {"grew most over its median", "{} by {:.2f} ms", stage_names[frame.slowed_stage], frame.slowdown_ms});
+            row.emplace_back("triangles", record.terrain_triangles);
+            row.push_back({"change", "{:+}", record.triangle_change});
+        }
         if (recording.has_counters) {
             row.emplace_back("page faults", record.counters.page_faults);
             row.emplace_back("switches", record.counters.switches);
@@ -462,7 +475,7 @@ std::string slowest_frames(const LoadedRecording& recording) {
     for (std::size_t i = 0; i < std::min(SlowPictures::max_shown, recording.slowest.size()); ++i) {
         sheet += slow_picture_html(recording, recording.slowest[i].record);
     }
-    return heading_html("The slowest frames and why") +
+    return heading_html(recording.flight.has_stages() ? "The slowest frames and why" : "The slowest frames") +
            card_html(overrun_summary(recording) + html_of(slowest_table(recording)) +
                      (sheet.empty() ? "" : "<div class=\"sheet\">\n" + sheet + "</div>\n"));
 }
@@ -476,8 +489,11 @@ std::string values_table(std::string_view title, const NamedValues& rows) {
 }
 
 NamedValues result_rows(const LoadedRecording& recording) {
-    NamedValues rows{{"state hash", recording.run.state_hash}, {"picture hash", recording.run.picture_hash},
-        {"path offset over the ground (x, y, z), m", recording.run.path_offset}};
+    NamedValues rows;
+    if (recording.capture_format.empty()) {
+        rows = {{"state hash", recording.run.state_hash}, {"picture hash", recording.run.picture_hash},
+            {"path offset over the ground (x, y, z), m", recording.run.path_offset}};
+    }
     for (const NamedValues& more : {recording.run.facts, recording.flight.clock.rows(), recording.flight.link.rows()}) {
         rows.insert(rows.end(), more.begin(), more.end());
     }

@@ -4,6 +4,7 @@
 #include "sim/base/output_file.h"
 #include "sim/base/text_file.h"
 #include "ui/base/data_files.h"
+#include "ui/report/frame_capture.h"
 #include "ui/report/frame_csv.h"
 #include "ui/report/kernel_counters.h"
 
@@ -84,6 +85,27 @@ void read_files(LoadedRecording& recording) {
     recording.pictures = pictures_in(folder);
 }
 
+LoadedRecording loaded_capture(const fs::path& file) {
+    FrameCapture capture = read_frame_capture(file);
+    LoadedRecording recording;
+    recording.folder.path = file;
+    recording.name = file.filename().string();
+    recording.display_name = file.string();
+    recording.capture_format = std::move(capture.format);
+    recording.run = std::move(capture.run);
+    FrameRecord record;
+    for (const FrameTime& frame : capture.frames) {
+        record.sim_time_s = record.wall_s = frame.time_s;
+        record.frame_ms = frame.frame_ms;
+        record.overrun = frame.frame_ms > overrun_16_ms ? 1 : 0;
+        recording.flight.add(record);
+        ++record.frame;
+    }
+    recording.statistics = recording.flight.times().statistics();
+    recording.slowest = recording.flight.slow.slowest();
+    return recording;
+}
+
 } // namespace
 
 std::optional<long> picture_frame(std::string_view name) {
@@ -97,12 +119,13 @@ std::optional<long> picture_frame(std::string_view name) {
     return whole_number(name);
 }
 
-LoadedRecording load_recording(const fs::path& folder_or_zip) {
+LoadedRecording load_recording(const fs::path& folder_or_file) {
+    if (is_frame_capture(folder_or_file)) { return loaded_capture(folder_or_file); }
     LoadedRecording recording;
-    recording.folder = open_recording(folder_or_zip);
-    recording.display_name = folder_or_zip.string();
+    recording.folder = open_recording(folder_or_file);
+    recording.display_name = folder_or_file.string();
     if (!is_folder(recording.folder.path)) {
-        throw_error_in(folder_or_zip, "expected the folder of a recording, found none");
+        throw_error_in(folder_or_file, "expected the folder of a recording, found none");
     }
     const fs::path whole = fs::absolute(recording.folder.path).lexically_normal();
     recording.name = (whole.has_filename() ? whole.filename() : whole.parent_path().filename()).string();

@@ -19,7 +19,10 @@ namespace octant::ui::report {
 struct LoadedRecording {
     RecordingFolder folder;
     std::string name;         ///< the folder's own name
-    std::string display_name; ///< the folder or packed file that was given
+    std::string display_name; ///< the folder or file that was given
+    /// Of frame times that another program recorded (frame_capture.h): what wrote them. Such a recording has frame
+    /// times, a title, facts and machine, and nothing else. Empty for Octant's own recordings.
+    std::string capture_format;
     RunFile run;
     FlightAccumulator flight;
     Statistics statistics;
@@ -38,8 +41,9 @@ using Recordings = std::span<const LoadedRecording>;
 /// The frame of "picture-00042.png", nothing for other names.
 std::optional<long> picture_frame(std::string_view name);
 
-/// Reads a recording, packed or not, a killed one too: then a torn last line of frames.csv is left out. Throws Error
-/// for what is no recording or is damaged.
-LoadedRecording load_recording(const std::filesystem::path& folder_or_zip);
+/// Reads a recording, packed or not, a killed one too: then a torn last line of frames.csv is left out. Of any other
+/// file it reads the frame times that another program recorded (frame_capture.h). Throws Error for what is none of
+/// these or is damaged.
+LoadedRecording load_recording(const std::filesystem::path& folder_or_file);
 
 } // namespace octant::ui::report

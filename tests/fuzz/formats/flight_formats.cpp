@@ -7,6 +7,7 @@
 #include "sim/base/output_file.h"
 #include "sim/base/text_file.h"
 #include "tests/fuzz/formats/target.h"
+#include "ui/report/frame_capture.h"
 #include "ui/report/frame_csv.h"
 #include "ui/report/run_file.h"
 #include "ui/report/statistics.h"
@@ -127,6 +128,44 @@ const Registered target({
 });
 
 } // namespace entity_table
+
+namespace frame_capture {
+
+void use(const std::filesystem::path& file) {
+    const ui::report::FrameCapture capture = ui::report::read_frame_capture(file);
+    expect(!capture.frames.empty() && !capture.run.title.empty(), "a title and frames");
+    double before_s = 0.0;
+    for (const ui::report::FrameTime& frame : capture.frames) {
+        expect(frame.frame_ms > 0.0 && frame.frame_ms <= 1e9, "a frame time");
+        expect(frame.time_s >= before_s && std::isfinite(frame.time_s), "a time");
+        before_s = frame.time_s;
+    }
+}
+
+std::vector<std::string> seeds() {
+    return {"Application,ProcessID,SwapChainAddress,Runtime,Dropped,TimeInSeconds,msBetweenPresents,Processor\n"
+            "a.exe,1,0x1,DXGI,0,1.5,16.5,A CPU\nb.exe,2,0x2,DXGI,0,1.6,8.25\na.exe,1,0x1,DXGI,1,1.7,20\n",
+        "\xef\xbb\xbf"
+        "Application,FrameType,CPUStartTime,FrameTime,DisplayedTime\r\na.exe,Application,0,9,NA\r\n"
+        "a.exe,AMD AFMF,0,9,1\r\na.exe,Application,9,NA,9\r\n",
+        "//GameName=a\n//GPU=b\nApplication;TimeInMs;MsBetweenPresents\na.exe;1,5;16,5\na.exe;18,5;17\n",
+        "v1\n0.7.1\n---SYSTEM INFO---\nos,cpu,gpu\na,b,c\n---FRAME METRICS---\nfps,frametime,elapsed\n"
+        "60,16500,1000\n50,20000,20001000\n",
+        R"({"Info":{"GameName":"a","GPU":"b","GPUCount":null},"Runs":[{"CaptureData":{"TimeInSeconds":[0,0.02],)"
+        R"("MsBetweenPresents":[16.5,20],"Dropped":[false,true]}},{"CaptureData":{"MsBetweenPresents":[9]}}]})"};
+}
+
+const Registered target({
+    .name = "frame_capture",
+    .file = "capture",
+    .use = use,
+    .seeds = seeds,
+    .words = {"Application,", "ProcessID,", "FrameType,", "FrameTime,", "MsBetweenPresents,", "TimeInSeconds,",
+        "CPUBusy,", "CPUWait,", "fps,", "frametime,", "elapsed,", "NA", "nan", ";", "\t", "//", "0,5", "1e9", "-1",
+        "null", "\"Runs\":", "\"CaptureData\":", "\"Info\":", "\xff\xfe"},
+});
+
+} // namespace frame_capture
 
 namespace frames {
 
