@@ -38,6 +38,9 @@ NamedValues scene_of(const LoadedRecording& recording, SettingRoles roles) {
         }
     }
     for (const auto& [file, hash] : recording.run.inputs) { scene.emplace_back(without_folder(file), hash); }
+    if (!recording.capture_format.empty()) {
+        scene.emplace_back(application_fact, value_of(recording.run.facts, application_fact));
+    }
     scene.emplace_back(
         "processor", fmt::format("{}, {} cores", recording.run.machine_info.cpu, recording.run.machine_info.cores));
     std::ranges::sort(scene);
@@ -193,6 +196,12 @@ std::vector<ComparedFlight> compared_flights(Recordings recordings, SettingRoles
 
 FrameTimes read_frame_times(const LoadedRecording& recording) {
     FrameTimes times;
+    if (!recording.capture_format.empty()) {
+        for (const FrameTime& frame : read_frame_capture(recording.folder.path).frames) {
+            times.frame_ms.push_back(frame.frame_ms);
+        }
+        return times;
+    }
     FrameReader rows(recording.folder.path / "frames.csv");
     while (const auto row = rows.next()) {
         if (row->warm_up) { continue; }
@@ -219,7 +228,9 @@ FlightChange flight_change(Recordings recordings, const Variant& before, const V
         times[static_cast<std::size_t>(both.sides[i])].push_back(read_frame_times(recordings[both.runs[i]]));
     }
     if (times[0].empty() || times[1].empty()) { return change; }
-    const bool same_frames = change.same_states && change.flight_differences.empty();
+    const bool are_own =
+        std::ranges::all_of(both.runs, [&](std::size_t run) { return recordings[run].capture_format.empty(); });
+    const bool same_frames = change.same_states && change.flight_differences.empty() && are_own;
     change.frames = frame_change(times[0], times[1], both.sides, same_frames);
     change.adjusted_p = change.frames.change ? change.frames.change->p : 1.0;
     return change;

@@ -10,6 +10,7 @@
 #include <catch2/catch.hpp>
 
 #include <algorithm>
+#include <fmt/format.h>
 #include <string>
 #include <vector>
 
@@ -218,4 +219,24 @@ TEST_CASE("captures of other applications and recordings of Octant are not the s
     CHECK(settings_that_differ(a, load_recording(scratch / "b.csv")) == std::vector<std::string>{"application"});
     const auto differ = settings_that_differ(a, load_recording(scratch / "rec"));
     CHECK(std::ranges::count(differ, "application") == 1);
+}
+
+TEST_CASE("captures are compared by their figures, as their frames do not show the same") {
+    const ScratchFolder scratch;
+    std::vector<LoadedRecording> recordings;
+    for (int run = 0; run < 6; ++run) {
+        std::string text = presentmon_1;
+        for (int frame = 0; frame < 50; ++frame) {
+            text += fmt::format("a.exe,1,0x1,DXGI,0,0,0,{},0.1,{}\n", 0.02 * frame, (run < 3 ? 10 : 12) + 0.01 * run);
+        }
+        const auto file = scratch / fmt::format("{}.csv", run);
+        write_file(file, text);
+        recordings.push_back(load_recording(file));
+    }
+    const auto roles = [](std::string_view) { return SettingRole::Scene; };
+    REQUIRE(compared_flights(recordings, roles).size() == 1);
+    const FlightChange change = flight_change(recordings, {"old", {0, 1, 2}}, {"new", {3, 4, 5}}, roles);
+    CHECK(change.frames.pairing == Pairing::Figures);
+    CHECK(change.frames.old_ms == Approx(10.01));
+    CHECK(change.frames.new_ms == Approx(12.04));
 }
