@@ -2,6 +2,7 @@
 
 #include "ui/report/frame_change.h"
 #include "ui/report/loaded_recording.h"
+#include "ui/report/setting_role.h"
 #include "ui/report/table.h"
 
 #include <cstddef>
@@ -12,16 +13,6 @@
 #include <vector>
 
 namespace octant::ui::report {
-
-/// What a setting means to a comparison.
-enum class SettingRole {
-    Scene,   ///< what is flown and seen: flights that differ in it are different flights
-    Drawing, ///< how it is drawn: flights that differ in it are variants of one flight
-    Ignored  ///< neither states nor pictures nor times depend on it
-};
-
-/// Gives the role of each setting. ui/settings has the table.
-using SettingRoles = SettingRole (*)(std::string_view setting);
 
 /// What makes two recordings different flights, so that their times cannot be compared: names of settings of the scene
 /// and of input files whose contents differ, "processor". Empty: they are of one flight.

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "ui/base/data_files.h"
-#include "ui/report/comparison.h"
+#include "ui/report/setting_role.h"
 #include "ui/settings/settings.h"
 #include "ui/settings/settings_text.h"
 
