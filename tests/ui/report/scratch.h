@@ -1,5 +1,6 @@
 #pragma once
 
+#include "sim/base/output_file.h"
 #include "tests/scratch.h"
 #include "ui/report/frame_record.h"
 #include "ui/report/png_file.h"
@@ -40,6 +41,13 @@ public:
 private:
     std::string before_;
 };
+
+/// A program of that name in `folder` which runs `script`.
+inline void make_program(const std::filesystem::path& folder, const std::string& name, const std::string& script) {
+    make_folder(folder);
+    write_file(folder / name, "#!/bin/sh\n" + script + "\n");
+    std::filesystem::permissions(folder / name, std::filesystem::perms::owner_all);
+}
 
 /// A run of two aircraft, with something in every field.
 inline RunInfo made_up_info() {
