@@ -62,7 +62,8 @@ TEST_CASE("a flight that was killed is reported, losing at most its last second"
     CHECK(files_in(folder) == left);
     CHECK(nlohmann::json::parse(left.at("trace.json")).size() > 30 * 5);
     CHECK(left.at("mangohud.csv").ends_with('\n'));
-    for (const std::string_view line : split_lines(left.at("mangohud.csv").substr(left.at("mangohud.csv").find("fps,")))) {
+    for (const std::string_view line :
+        split_lines(left.at("mangohud.csv").substr(left.at("mangohud.csv").find("fps,")))) {
         CHECK(std::ranges::count(line, ',') == 15);
     }
     CHECK(left.at("track.acmi").ends_with('\n'));

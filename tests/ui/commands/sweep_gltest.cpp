@@ -127,20 +127,22 @@ TEST_CASE("a recording of a newer program stops a sweep, settings and replays wi
     tests::check_refused("report", {recording.string()}, told);
     tests::check_refused("fly", {"--settings", recording.string()}, told);
     tests::check_refused("fly", {"--replay", recording.string()}, told);
-    tests::check_refused("fly", {"straight", "--frames", "2", "--terrain", "none", "--record", recording.string()}, told);
+    tests::check_refused(
+        "fly", {"straight", "--frames", "2", "--terrain", "none", "--record", recording.string()}, told);
     CHECK(read_file(recording / "run.json") == text);
 }
 
 namespace {
 
 /// An sbatch that runs the tasks of its array one after the other.
-constexpr const char* working_sbatch = R"(
+constexpr const char* working_sbatch = R"sh(
 [ "$1" = --version ] && exit 0
 echo "Submitted batch job 7"
 cd "$(dirname "$3")" || exit 1
 fault=0
-for task in $(echo "${2#--array=}" | tr , ' '); do SLURM_ARRAY_TASK_ID=$task bash "$3" || fault=1; done
-exit $fault)";
+for task in $(echo "${2#--array=}" | tr , ' ');
+do SLURM_ARRAY_TASK_ID = $task bash "$3" || fault = 1; done
+exit $fault)sh";
 
 /// A program that says that it is installed and does nothing else.
 std::string failing(const std::string& words, int exit_code) {
@@ -167,8 +169,10 @@ TEST_CASE("what a scheduler refuses ends with its message and exit code 2, and n
         CHECK(fs::is_empty(made / "out/runs"));
     };
     make_program(bin, "squeue", "exit 0");
-    refused("slurm", failing("echo 'sbatch: error: invalid partition specified: x' >&2\n"
-                             "echo 'sbatch: error: Batch job submission failed: Invalid partition name specified' >&2", 1),
+    refused("slurm",
+        failing("echo 'sbatch: error: invalid partition specified: x' >&2\n"
+                "echo 'sbatch: error: Batch job submission failed: Invalid partition name specified' >&2",
+            1),
         "sbatch: invalid partition specified: x; Batch job submission failed: Invalid partition name specified");
     refused("slurm", "echo 'sbatch: fatal: Could not establish a configuration source' >&2; exit 1",
         "sbatch: Could not establish a configuration source");
@@ -189,7 +193,8 @@ TEST_CASE("what a scheduler refuses ends with its message and exit code 2, and n
     const tests::ProgramRun run = run_octant({"sweep", file, "--out", out, "--on", "slurm"});
     INFO(run.err);
     CHECK(run.exit_code == 1);
-    CHECK_THAT(run.out, Contains("1 of 2 flights done (1 failed), by Slurm") && Contains("failed: nowhere.toml: octant: "));
+    CHECK_THAT(
+        run.out, Contains("1 of 2 flights done (1 failed), by Slurm") && Contains("failed: nowhere.toml: octant: "));
     CHECK_THAT(read_file(made / "out/sweep.csv"), Contains("\nnowhere.toml,nowhere.toml,1,failed,false,"));
 }
 
@@ -197,19 +202,22 @@ TEST_CASE("flights that a scheduler never began are told as such") {
     const auto made = tests::empty_folder("sweep-not-begun");
     const SearchPath path((made / "bin").string() + ":" + std::getenv("PATH"));
     const std::string file = (made / "three.toml").string();
-    write_file(file, "name = \"three\"\n[settings]\nsize = \"32x24\"\nframes = 2\nterrain = \"none\"\n[vary]\nfov = [40, 50, 60]\n");
+    write_file(file,
+        "name = \"three\"\n[settings]\nsize = \"32x24\"\nframes = 2\nterrain = \"none\"\n[vary]\nfov = [40, 50, 60]\n");
     make_program(made / "bin", "squeue", "exit 0");
     std::string first_only = working_sbatch;
     first_only.replace(first_only.find("$(echo"), first_only.find("; do") - first_only.find("$(echo"), "0");
     make_program(made / "bin", "sbatch", first_only);
-    const std::vector<std::string> line = {"sweep", file, "--out", (made / "out").string(), "--on", "slurm", "--batch", "retries=0", "--quiet"};
+    const std::vector<std::string> line = {
+        "sweep", file, "--out", (made / "out").string(), "--on", "slurm", "--batch", "retries=0", "--quiet"};
     const tests::ProgramRun run = run_octant(line);
     INFO(run.out << run.err);
     CHECK(run.exit_code == 1);
     CHECK(tests::lines_in(run.out) == 1);
     CHECK_THAT(run.out, Contains("1 of 3 flights done (2 not begun), by Slurm"));
     // The first in the order of flying is the last of the file.
-    CHECK_THAT(read_file(made / "out/sweep.csv"), Contains("\n40,40,1,not begun,false,") && Contains("\n60,60,1,flown,true,"));
+    CHECK_THAT(
+        read_file(made / "out/sweep.csv"), Contains("\n40,40,1,not begun,false,") && Contains("\n60,60,1,flown,true,"));
     CHECK_THAT(read_file(made / "out/report.html"), Contains("<td>2 flights</td>"));
     make_program(made / "bin", "sbatch", working_sbatch);
     CHECK(run_octant(line).exit_code == 0);

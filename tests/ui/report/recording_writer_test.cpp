@@ -263,8 +263,8 @@ TEST_CASE("a recording of a newer program is refused and never replaced") {
     };
     for (const auto& [version, told] : std::map<std::string, std::string>{{"99", "99: a newer Octant wrote it"},
              {"2", "2: a newer Octant wrote it"}, {"1.5", "1.5: a newer Octant wrote it"},
-             {"18446744073709551615", "18446744073709551615: a newer Octant wrote it"}, {"0.5", "0.5"},
-             {"\"1\"", "1"}, {"[1]", "1"}, {"true", "true"}}) {
+             {"18446744073709551615", "18446744073709551615: a newer Octant wrote it"}, {"0.5", "0.5"}, {"\"1\"", "1"},
+             {"[1]", "1"}, {"true", "true"}}) {
         with_version("\"format_version\": " + version + ",");
         const std::string refused = file.string() + ": expected format_version 1 or earlier, got " + told;
         CHECK_THROWS_WITH(load_recording(scratch / "rec"), refused);

@@ -152,7 +152,8 @@ TEST_CASE("a run is flown, failed, stopped or not begun by what lies in the swee
     folder.remove_logs(sweep, last_two);
     CHECK_FALSE(folder.any_begun(sweep, last_two));
     write_file(run_file, R"({"format": "octant recording", "format_version": 99})");
-    CHECK_THROWS_WITH(state_of(1), run_file.string() + ": expected format_version 1 or earlier, got 99: a newer Octant wrote it");
+    CHECK_THROWS_WITH(
+        state_of(1), run_file.string() + ": expected format_version 1 or earlier, got 99: a newer Octant wrote it");
 }
 
 TEST_CASE("scripts of engines name each run once, whatever the program is called") {
