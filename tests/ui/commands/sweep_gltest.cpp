@@ -141,7 +141,7 @@ echo "Submitted batch job 7"
 cd "$(dirname "$3")" || exit 1
 fault=0
 for task in $(echo "${2#--array=}" | tr , ' ');
-do SLURM_ARRAY_TASK_ID = $task bash "$3" || fault = 1; done
+do SLURM_ARRAY_TASK_ID=$task bash "$3" || fault=1; done
 exit $fault)sh";
 
 /// A program that says that it is installed and does nothing else.
