@@ -97,6 +97,7 @@ std::vector<sweep::RunResult> fly_all(
     std::vector<sweep::RunResult> results = results_of(sweep, folder, options.engine.videos);
     const std::size_t done_before = results.size() - unfinished_runs(results).size();
     if (done_before > 0) { base::print_note(quiet, fmt::format("flights that are done already: {}", done_before)); }
+    for (const std::size_t run : unfinished_runs(results)) { results[run] = {.name = sweep.runs[run].name}; }
     folder.remove_logs(sweep, unfinished_runs(results));
     for (int attempt = 0; attempt <= options.retries && !base::StopSignals::received(); ++attempt) {
         const std::vector<std::size_t> left = unfinished_runs(results);
@@ -110,19 +111,20 @@ std::vector<sweep::RunResult> fly_all(
     return results;
 }
 
-/// What stands for the parts of a flight that is not done: a part that failed, else one that was stopped, else one that
-/// has not begun, which has stopped the flight where another part has begun. Nothing where all parts are done.
-std::optional<sweep::RunResult> unfinished_part(std::span<const sweep::RunResult> parts) {
+/// Sets state and fault of a flight of which not all parts are done: those of a part that failed, else of one that was
+/// stopped. A flight of which only some parts have begun counts as stopped. False where all parts are done.
+bool set_fault_of_parts(std::span<const sweep::RunResult> parts, sweep::RunResult& flight) {
     using sweep::RunState;
-    for (const RunState state : {RunState::Failed, RunState::Stopped, RunState::NotBegun}) {
-        const auto part = std::ranges::find(parts, state, &sweep::RunResult::state);
-        if (part == parts.end()) { continue; }
-        sweep::RunResult result = *part;
-        const bool any_flown = std::ranges::any_of(parts, &sweep::RunResult::done);
-        if (state == RunState::NotBegun && any_flown) { result.state = RunState::Stopped; }
-        return result;
-    }
-    return std::nullopt;
+    const auto first = [&](RunState state) { return std::ranges::find(parts, state, &sweep::RunResult::state); };
+    auto part = first(RunState::Failed);
+    if (part == parts.end()) { part = first(RunState::Stopped); }
+    if (part == parts.end()) { part = first(RunState::NotBegun); }
+    if (part == parts.end()) { return false; }
+    flight.state = part->state;
+    if (std::ranges::count(parts, RunState::NotBegun, &sweep::RunResult::state) == std::ssize(parts)) { return true; }
+    if (part->state == RunState::NotBegun) { flight.state = RunState::Stopped; }
+    flight.fault = fmt::format("{}: {}", part->name, part->fault.empty() ? text_of(part->state) : part->fault);
+    return true;
 }
 
 /// Flies the parts of what is not done yet and puts them together; gives what came of the whole flights.
@@ -144,13 +146,7 @@ SweepResults fly_in_parts(const SweepOptions& options, const sweep::Sweep& sweep
         const sweep::SweepRun& whole = to_fly.runs[i];
         const auto own = std::span(part_results).subspan(i * count, count);
         auto& result = *std::ranges::find(results, whole.name, &sweep::RunResult::name);
-        if (const auto missing = unfinished_part(own)) {
-            result.state = missing->state;
-            result.fault = missing->state == sweep::RunState::NotBegun
-                               ? missing->fault
-                               : fmt::format("{}: {}", missing->name, missing->fault);
-            continue;
-        }
+        if (set_fault_of_parts(own, result)) { continue; }
         std::vector<fs::path> recordings;
         for (const sweep::RunResult& part : own) { recordings.push_back(part_folder.recording(part.name)); }
         try {

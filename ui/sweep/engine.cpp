@@ -228,8 +228,9 @@ report::ProgramResult run_engine(
 /// as the runs' logs then say what failed.
 void check_scheduler(const std::string& program, const report::ProgramResult& ending, bool any_begun, bool quiet) {
     if (ending.succeeded || base::StopSignals::received()) { return; }
-    if (!any_begun) { refuse(program, ending); }
-    base::print_note(quiet, fmt::format("note: {}: {}", program, complaint_of(program, ending)));
+    const std::string complaint = fmt::format("{}: {}", program, complaint_of(program, ending));
+    if (!any_begun) { throw Error(complaint + (ending.errors.empty() ? " and no flight began" : "")); }
+    base::print_note(quiet, "note: " + complaint);
 }
 
 /// The number in "Submitted batch job 123"; empty where there is none.
@@ -247,11 +248,11 @@ void wait_for_queue(const std::string& job) {
     constexpr auto look_every = std::chrono::seconds(2);
     while (!job.empty()) {
         auto child = ChildProgram::start({"squeue", "--noheader", "--jobs=" + job});
-        if (!child) { return; }
-        const report::ProgramResult ending = child->finish();
-        const bool is_gone = ending.errors.find("Invalid job id") != std::string::npos;
-        if (!ending.succeeded && !is_gone) { refuse("squeue", ending); }
-        if (is_gone || ending.output.empty()) { return; }
+        const report::ProgramResult ending = child ? child->finish() : report::ProgramResult();
+        const bool is_gone = !child || ending.errors.find("Invalid job id") != std::string::npos;
+        if (is_gone || base::StopSignals::received()) { return; }
+        if (!ending.succeeded) { refuse("squeue", ending); }
+        if (ending.output.empty()) { return; }
         std::this_thread::sleep_for(look_every);
     }
 }

@@ -34,8 +34,8 @@ public:
     Engine& operator=(Engine&&) = delete;
 
     /// Attempts each of these runs once, in this order, and waits for all of them; the results are in the folder.
-    /// `runs`: indices into the sweep's runs. Throws Error with the engine's message when the engine itself fails and
-    /// none of them has a log, or nobody knows how they ended.
+    /// `runs`: indices into the sweep's runs. Throws Error with the scheduler's message if it fails and none of these
+    /// runs has a log, or if it does not tell any more whether they have ended.
     virtual void fly(std::span<const std::size_t> runs) = 0;
 
     /// How the runs shared machines, for the report: "one at a time".
@@ -45,8 +45,8 @@ public:
 /// Child processes on this machine, one at a time unless EngineOptions::share_cores is set.
 std::unique_ptr<Engine> local_engine(const Sweep& sweep, const SweepFolder& folder, EngineOptions options);
 
-/// A Slurm job array, submitted by a script in the folder. Throws Error if sbatch is not installed or
-/// does not work.
+/// A Slurm job array, submitted by a script in the folder. Throws Error if sbatch is not installed or does
+/// not work.
 std::unique_ptr<Engine> slurm_engine(const Sweep& sweep, const SweepFolder& folder, EngineOptions options);
 
 /// GNU parallel over ssh, started by a script in the folder. All machines must see the folder under the same name.

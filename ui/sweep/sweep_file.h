@@ -21,7 +21,7 @@ struct SweepRun {
 /// The flights of a sweep file.
 struct Sweep {
     std::string name;
-    std::vector<SweepRun> runs;          ///< by the file: the last varied setting changes fastest but for repeats
+    std::vector<SweepRun> runs;          ///< in the order of the file, in which repeats change fastest
     std::vector<std::string> notes = {}; ///< of values under old names, each once
 };
 

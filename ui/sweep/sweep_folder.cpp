@@ -110,13 +110,9 @@ std::string text_of(RunState state) {
 
 namespace {
 
-/// Why a run that is not done is not, and which state that is. `is_recorded`: it has a run.json.
+/// Sets state and fault of a run that is not done. `is_recorded`: it has a run.json.
 void set_fault(const SweepFolder& folder, bool is_recorded, RunResult& result) {
-    if (!path_exists(folder.log(result.name))) {
-        result.state = RunState::NotBegun;
-        result.fault = text_of(result.state);
-        return;
-    }
+    if (!path_exists(folder.log(result.name))) { return; }
     const std::string last = last_log_line(folder.log(result.name));
     const std::string stopped =
         is_recorded ? report::read_run_file(folder.recording(result.name) / "run.json").stopped : std::string();
@@ -193,7 +189,7 @@ std::span<const report::Column<RunResult>> result_columns() {
         recorded_hash<&R::state_hash>("state_hash", "states"),
         recorded_hash<&R::picture_hash>("picture_hash", "pictures"),
         report::column<&R::noise>("noise", "noise", 0, "why its timings are not to be trusted; empty = quiet"),
-        report::column<&R::fault>("fault", "why", 0, "why it is not done; else empty"),
+        report::column<&R::fault>("fault", "why", 0, "why a flight that has begun is not done; else empty"),
     };
     return columns;
 }

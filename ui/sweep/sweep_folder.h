@@ -61,7 +61,7 @@ std::string text_of(RunState state);
 struct RunResult {
     std::string name;
     RunState state = RunState::NotBegun;
-    std::string fault; ///< one line that says why it is not done
+    std::string fault; ///< one line that says why a run that has begun is not done
     std::string host;  ///< the machine that flew it
     std::string state_hash;
     std::string picture_hash;

@@ -176,7 +176,7 @@ TEST_CASE("what a scheduler refuses ends with its message and exit code 2, and n
         "sbatch: invalid partition specified: x; Batch job submission failed: Invalid partition name specified");
     refused("slurm", "echo 'sbatch: fatal: Could not establish a configuration source' >&2; exit 1",
         "sbatch: Could not establish a configuration source");
-    refused("slurm", failing("echo 'Submitted batch job 7'", 1), "sbatch: ended with exit code 1");
+    refused("slurm", failing("echo 'Submitted batch job 7'", 1), "sbatch: ended with exit code 1 and no flight began");
     refused("parallel", failing("echo 'parallel: Error: Cannot open /machines.txt.' >&2", 255),
         "parallel: Cannot open /machines.txt.");
     refused("parallel", failing("for i in 1 2 3; do echo 'ssh: Could not resolve hostname x' >&2; done", 2),

@@ -136,7 +136,7 @@ TEST_CASE("a run is flown, failed, stopped or not begun by what lies in the swee
         const RunResult result = result_of(folder, sweep.runs[run]);
         return text_of(result.state) + ": " + result.fault;
     };
-    CHECK(state_of(0) == "not begun: not begun");
+    CHECK(state_of(0) == "not begun: ");
     write_file(folder.log("40"), "");
     CHECK(state_of(0) == "failed: was not flown to its end");
     write_file(folder.log("40"), "note: slow\noctant: expected much, got little\n\n");
@@ -144,7 +144,7 @@ TEST_CASE("a run is flown, failed, stopped or not begun by what lies in the swee
     const auto run_file = folder.recording("50") / "run.json";
     make_folder(run_file.parent_path());
     write_file(run_file, R"({"format": "octant recording", "stopped": "SIGTERM after 3 of 240 frames"})");
-    CHECK(state_of(1) == "not begun: not begun"); // an earlier call has stopped it
+    CHECK(state_of(1) == "not begun: "); // an earlier call has stopped it
     write_file(folder.log("50"), "note: slow\n");
     CHECK(state_of(1) == "stopped: ended by SIGTERM after 3 of 240 frames");
     constexpr std::array<std::size_t, 2> last_two{1, 2};
