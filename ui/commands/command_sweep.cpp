@@ -97,7 +97,10 @@ std::vector<sweep::RunResult> fly_all(
     std::vector<sweep::RunResult> results = results_of(sweep, folder, options.engine.videos);
     const std::size_t done_before = results.size() - unfinished_runs(results).size();
     if (done_before > 0) { base::print_note(quiet, fmt::format("flights that are done already: {}", done_before)); }
-    for (const std::size_t run : unfinished_runs(results)) { results[run] = {.name = sweep.runs[run].name}; }
+    for (const std::size_t run : unfinished_runs(results)) {
+        results[run].state = sweep::RunState::NotBegun;
+        results[run].fault.clear();
+    }
     folder.remove_logs(sweep, unfinished_runs(results));
     for (int attempt = 0; attempt <= options.retries && !base::StopSignals::received(); ++attempt) {
         const std::vector<std::size_t> left = unfinished_runs(results);
