@@ -206,7 +206,8 @@ TEST_CASE("flights that a scheduler never began are told as such") {
         "name = \"three\"\n[settings]\nsize = \"32x24\"\nframes = 2\nterrain = \"none\"\n[vary]\nfov = [40, 50, 60]\n");
     make_program(made / "bin", "squeue", "exit 0");
     std::string first_only = working_sbatch;
-    first_only.replace(first_only.find("$(echo"), first_only.find("; do") - first_only.find("$(echo"), "0");
+    const std::size_t tasks = first_only.find("$(echo");
+    first_only.replace(tasks, first_only.find(";\n", tasks) - tasks, "0");
     make_program(made / "bin", "sbatch", first_only);
     const std::vector<std::string> line = {
         "sweep", file, "--out", (made / "out").string(), "--on", "slurm", "--batch", "retries=0", "--quiet"};
