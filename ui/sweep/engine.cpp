@@ -62,6 +62,8 @@ std::string sbatch_script(const Sweep& sweep, const SweepFolder& folder, const E
     text += fmt::format("#SBATCH --chdir=\"{}\"\n#SBATCH --output=\"{}/logs/slurm-%a.log\"\n", place, pattern);
     text += options.share_cores ? "" : "#SBATCH --exclusive\n";
     for (const std::string& option : options.sbatch_options) { text += fmt::format("#SBATCH {}\n", option); }
+    // Where a node does not have the folder, Slurm starts the task in another.
+    text += fmt::format("cd {} || exit 2\n", shell_quoted(place));
     text += "fault=0\nwhile read -r run; do\n  ";
     text += fly_command(options, "$run");
     text += fmt::format(" </dev/null || fault=$?\ndone < <(awk \"NR % {} == ($SLURM_ARRAY_TASK_ID + 1) % {}\" "

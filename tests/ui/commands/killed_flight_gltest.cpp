@@ -173,7 +173,7 @@ TEST_CASE("a signal ends a sweep in order, with what is flown so far") {
         CHECK(run.out.find("0 of 3 flights done (1 stopped, 2 not begun)") != std::string::npos);
         CHECK(run.out.find("stopped: 60: ended by " + name) != std::string::npos);
         CHECK(run.out.find("failed") == std::string::npos);
-        CHECK(read_file(folder / "sweep.csv").find("\n40,40,1,not begun,false,") != std::string::npos);
+        CHECK(read_file(folder / "sweep.csv").find("\n40,40,1,not begun,0,") != std::string::npos);
         CHECK(fs::exists(folder / "report.html"));
         CHECK(fs::exists(folder / "runs/60/report.html"));
         CHECK_FALSE(fs::exists(folder / "runs/60/recording.lock"));

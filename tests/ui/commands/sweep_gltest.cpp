@@ -49,7 +49,7 @@ TEST_CASE("a sweep flies what is not done yet, tells what failed, and reports al
     CHECK_THAT(first.out, Contains("8 of 8 flights done, one at a time"));
     const std::string table = read_file(out / "sweep.csv");
     CHECK(tests::lines_in(table) == 9);
-    CHECK_THAT(table, Contains("\nstraight-f15-r1,straight,f15,1,flown,true,"));
+    CHECK_THAT(table, Contains("\nstraight-f15-r1,straight,f15,1,flown,1,"));
     CHECK(table.find("\nstraight-f15-r1,") < table.find("\nstraight-f15-r2,"));
     CHECK(table.find("\nstraight-f15-r2,") < table.find("\nstraight-concave-r1,"));
     const std::string jobs = read_file(out / "jobs.txt");
@@ -195,7 +195,7 @@ TEST_CASE("what a scheduler refuses ends with its message and exit code 2, and n
     CHECK(run.exit_code == 1);
     CHECK_THAT(
         run.out, Contains("1 of 2 flights done (1 failed), by Slurm") && Contains("failed: nowhere.toml: octant: "));
-    CHECK_THAT(read_file(made / "out/sweep.csv"), Contains("\nnowhere.toml,nowhere.toml,1,failed,false,"));
+    CHECK_THAT(read_file(made / "out/sweep.csv"), Contains("\nnowhere.toml,nowhere.toml,1,failed,0,"));
 }
 
 TEST_CASE("flights that a scheduler never began are told as such") {
@@ -218,7 +218,7 @@ TEST_CASE("flights that a scheduler never began are told as such") {
     CHECK_THAT(run.out, Contains("1 of 3 flights done (2 not begun), by Slurm"));
     // The first in the order of flying is the last of the file.
     CHECK_THAT(
-        read_file(made / "out/sweep.csv"), Contains("\n40,40,1,not begun,false,") && Contains("\n60,60,1,flown,true,"));
+        read_file(made / "out/sweep.csv"), Contains("\n40,40,1,not begun,0,") && Contains("\n60,60,1,flown,1,"));
     CHECK_THAT(read_file(made / "out/report.html"), Contains("<td>2 flights</td>"));
     make_program(made / "bin", "sbatch", working_sbatch);
     CHECK(run_octant(line).exit_code == 0);

@@ -170,6 +170,7 @@ TEST_CASE("scripts of engines name each run once, whatever the program is called
     CHECK_THAT(script, Contains("#SBATCH --requeue\n"));
     CHECK_THAT(script, Contains("#SBATCH --exclusive\n"));
     CHECK_THAT(script, Contains("#SBATCH --partition=long\n"));
+    CHECK_THAT(script, Contains("cd '/a b/sweep' || exit 2\n"));
     CHECK_THAT(script, Contains("'/opt/it'\\''s/octant' fly --settings"));
     constexpr std::array<std::size_t, 3> runs{1, 5, 6};
     CHECK(task_list(runs, 4) == "1,2");
