@@ -62,10 +62,8 @@ TEST_CASE("a flight that was killed is reported, losing at most its last second"
     CHECK(files_in(folder) == left);
     CHECK(nlohmann::json::parse(left.at("trace.json")).size() > 30 * 5);
     CHECK(left.at("mangohud.csv").ends_with('\n'));
-    for (const std::string_view line :
-        split_lines(left.at("mangohud.csv").substr(left.at("mangohud.csv").find("fps,")))) {
-        CHECK(std::ranges::count(line, ',') == 15);
-    }
+    const std::string rows = left.at("mangohud.csv").substr(left.at("mangohud.csv").find("fps,"));
+    for (const std::string_view line : split_lines(rows)) { CHECK(std::ranges::count(line, ',') == 15); }
     CHECK(left.at("track.acmi").ends_with('\n'));
     CHECK(flightpaths::parse_acmi(left.at("track.acmi"), folder / "track.acmi").aircraft.size() == 1);
     const auto loaded = ui::report::load_recording(folder);
@@ -171,7 +169,7 @@ TEST_CASE("a signal ends a sweep in order, with what is flown so far") {
         INFO(run.out << run.err);
         CHECK(run.exit_code == 128 + number);
         CHECK(run.out.find("0 of 3 flights done (1 stopped, 2 not begun)") != std::string::npos);
-        CHECK(run.out.find("stopped: 60: ended by " + name) != std::string::npos);
+        CHECK(run.out.find("stopped: 60: ended by SIGTERM after ") != std::string::npos);
         CHECK(run.out.find("failed") == std::string::npos);
         CHECK(read_file(folder / "sweep.csv").find("\n40,40,1,not begun,0,") != std::string::npos);
         CHECK(fs::exists(folder / "report.html"));
