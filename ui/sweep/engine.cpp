@@ -252,9 +252,8 @@ void wait_for_queue(const std::string& job) {
         auto child = ChildProgram::start({"squeue", "--noheader", "--jobs=" + job});
         const report::ProgramResult ending = child ? child->finish() : report::ProgramResult();
         const bool is_gone = !child || ending.errors.find("Invalid job id") != std::string::npos;
-        if (is_gone || base::StopSignals::received()) { return; }
-        if (!ending.succeeded) { refuse("squeue", ending); }
-        if (ending.output.empty()) { return; }
+        if (!is_gone && !ending.succeeded && !base::StopSignals::received()) { refuse("squeue", ending); }
+        if (is_gone || !ending.succeeded || ending.output.empty()) { return; }
         std::this_thread::sleep_for(look_every);
     }
 }
