@@ -3,7 +3,6 @@
 #include "tests/scratch.h"
 #include "tests/ui/commands/command_checks.h"
 #include "tests/ui/commands/command_line.h"
-#include "tests/ui/report/scratch.h"
 
 #include <catch2/catch.hpp>
 
@@ -12,9 +11,9 @@
 
 using namespace octant;
 using Catch::Contains;
+using octant::tests::make_program;
 using octant::tests::run_octant;
-using octant::ui::report::make_program;
-using octant::ui::report::SearchPath;
+using octant::tests::SearchPath;
 
 namespace {
 
@@ -217,8 +216,7 @@ TEST_CASE("flights that a scheduler never began are told as such") {
     CHECK(tests::lines_in(run.out) == 1);
     CHECK_THAT(run.out, Contains("1 of 3 flights done (2 not begun), by Slurm"));
     // The first in the order of flying is the last of the file.
-    CHECK_THAT(
-        read_file(made / "out/sweep.csv"), Contains("\n40,40,1,not begun,0,") && Contains("\n60,60,1,flown,1,"));
+    CHECK_THAT(read_file(made / "out/sweep.csv"), Contains("\n40,40,1,not begun,0,") && Contains("\n60,60,1,flown,1,"));
     CHECK_THAT(read_file(made / "out/report.html"), Contains("<td>2 flights</td>"));
     make_program(made / "bin", "sbatch", working_sbatch);
     CHECK(run_octant(line).exit_code == 0);

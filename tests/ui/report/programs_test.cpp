@@ -11,6 +11,8 @@
 
 using namespace octant;
 using namespace octant::ui::report;
+using octant::tests::make_program;
+using octant::tests::SearchPath;
 
 TEST_CASE("a program is fed, and its output and its end are reported") {
     auto cat = ChildProgram::start({"cat", "-"});

@@ -1,12 +1,10 @@
 #pragma once
 
-#include "sim/base/output_file.h"
 #include "tests/scratch.h"
 #include "ui/report/frame_record.h"
 #include "ui/report/png_file.h"
 #include "ui/report/recording_writer.h"
 
-#include <cstdlib>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -23,31 +21,6 @@ public:
 private:
     std::filesystem::path path_ = tests::empty_folder("report");
 };
-
-/// While it lives, programs are looked for in `path` only.
-class SearchPath {
-public:
-    explicit SearchPath(const std::string& path) : before_(std::getenv("PATH") != nullptr ? std::getenv("PATH") : "") {
-        setenv("PATH", path.c_str(), 1);
-    }
-
-    ~SearchPath() { setenv("PATH", before_.c_str(), 1); }
-
-    SearchPath(const SearchPath&) = delete;
-    SearchPath& operator=(const SearchPath&) = delete;
-    SearchPath(SearchPath&&) = delete;
-    SearchPath& operator=(SearchPath&&) = delete;
-
-private:
-    std::string before_;
-};
-
-/// A program of that name in `folder` which runs `script`.
-inline void make_program(const std::filesystem::path& folder, const std::string& name, const std::string& script) {
-    make_folder(folder);
-    write_file(folder / name, "#!/bin/sh\n" + script + "\n");
-    std::filesystem::permissions(folder / name, std::filesystem::perms::owner_all);
-}
 
 /// A run of two aircraft, with something in every field.
 inline RunInfo made_up_info() {
