@@ -245,15 +245,20 @@ std::string job_in(const std::string& text) {
 }
 
 /// Waits until a job has left Slurm's queue: tasks that were on a node which died are there again when `sbatch --wait`
-/// takes the job for ended. Throws Error when Slurm does not answer, as the job's flights may then still be flown.
+/// takes the job for ended. Throws Error when Slurm does not answer several times, as the job's flights may then still
+/// be flown.
 void wait_for_queue(const std::string& job) {
     constexpr auto look_every = std::chrono::seconds(2);
+    constexpr int max_failures = 3; // in a row; squeue itself tries for some seconds
+    int failures = 0;
     while (!job.empty()) {
         auto child = ChildProgram::start({"squeue", "--noheader", "--jobs=" + job});
         const report::ProgramResult ending = child ? child->finish() : report::ProgramResult();
         const bool is_gone = !child || ending.errors.find("Invalid job id") != std::string::npos;
-        if (!is_gone && !ending.succeeded && !base::StopSignals::received()) { refuse("squeue", ending); }
-        if (is_gone || !ending.succeeded || ending.output.empty()) { return; }
+        if (is_gone || (ending.succeeded && ending.output.empty())) { return; }
+        failures = ending.succeeded ? 0 : failures + 1;
+        if (failures == max_failures && base::StopSignals::received()) { return; }
+        if (failures == max_failures) { refuse("squeue", ending); }
         std::this_thread::sleep_for(look_every);
     }
 }
