@@ -134,22 +134,42 @@ void make_folder(const std::filesystem::path& path) {
     }
 }
 
-AppendedFile::AppendedFile(std::filesystem::path path) : path_(std::move(path)), descriptor_(create(path_)) {
+AppendedFile::AppendedFile(std::filesystem::path path, std::string end)
+    : path_(std::move(path)), end_(std::move(end)), descriptor_(create(path_)) {
     if (descriptor_ < 0) { cannot_write(path_); }
 }
 
 AppendedFile::~AppendedFile() {
     if (descriptor_ >= 0) {
-        write_all(descriptor_, unwritten_);
+        write_unwritten();
         ::close(descriptor_);
     }
 }
 
 void AppendedFile::append(std::string_view text) { unwritten_ += text; }
 
+/// Returns false and sets errno on failure. The end is written by the same call of the system as the text before it, as
+/// a kill between two calls would leave a file without its end. Of a text that does not fit (disk full) nothing stays
+/// in a file that has an end.
+bool AppendedFile::write_unwritten() {
+    const std::string bytes = std::exchange(unwritten_, {}) + end_;
+    const bool written = write_all(descriptor_, bytes);
+    if (end_.empty()) { return written; }
+    if (!written) {
+        const int write_errno = errno;
+        if (::ftruncate(descriptor_, size_) == 0 && ::lseek(descriptor_, size_, SEEK_SET) >= 0) {
+            write_all(descriptor_, end_);
+        }
+        errno = write_errno;
+    } else {
+        size_ += static_cast<off_t>(bytes.size() - end_.size());
+    }
+    ::lseek(descriptor_, size_, SEEK_SET);
+    return written;
+}
+
 void AppendedFile::flush() {
-    const std::string bytes = std::exchange(unwritten_, {});
-    if (!write_all(descriptor_, bytes)) { cannot_write(path_); }
+    if (!write_unwritten()) { cannot_write(path_); }
 }
 
 } // namespace octant

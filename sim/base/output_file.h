@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
+#include <sys/types.h>
 
 namespace octant {
 
@@ -40,8 +41,9 @@ void make_folder(const std::filesystem::path& path);
 /// A file that grows line by line. What was flushed stays if the program is killed.
 class AppendedFile {
 public:
-    /// Creates or empties the file. Throws Error.
-    explicit AppendedFile(std::filesystem::path path);
+    /// Creates or empties the file. After each flush the file ends with `end`, such as a closing bracket; the next
+    /// flush overwrites it. Throws Error.
+    explicit AppendedFile(std::filesystem::path path, std::string end = {});
     ~AppendedFile();
     AppendedFile(AppendedFile&&) = delete;
     AppendedFile& operator=(AppendedFile&&) = delete;
@@ -51,12 +53,16 @@ public:
     /// Buffers the text until the next flush().
     void append(std::string_view text);
 
-    /// Writes everything appended. Throws Error (disk full).
+    /// Writes everything appended. Throws Error (disk full); nothing more may be appended then.
     void flush();
 
 private:
+    bool write_unwritten();
+
     std::filesystem::path path_;
+    std::string end_;
     std::string unwritten_;
+    off_t size_ = 0; ///< bytes before the end
     int descriptor_ = -1;
 };
 

@@ -14,8 +14,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <csignal>
 #include <fmt/format.h>
 #include <fstream>
+#include <sys/resource.h>
 
 using namespace octant;
 
@@ -109,6 +111,40 @@ TEST_CASE("a growing file keeps what was flushed") {
     AppendedFile full("/dev/full");
     full.append("x");
     CHECK_THROWS_AS(full.flush(), Error);
+}
+
+TEST_CASE("a growing file with an end has it after each flush, and where the disk is full") {
+    const auto path = scratch("ended");
+    {
+        AppendedFile file(path, "]");
+        file.append("[1");
+        file.flush();
+        CHECK(read_file(path) == "[1]");
+        file.flush();
+        CHECK(read_file(path) == "[1]");
+        file.append(",22");
+        CHECK(read_file(path) == "[1]");
+        file.flush();
+        CHECK(read_file(path) == "[1,22]");
+        file.append(",3");
+    }
+    CHECK(read_file(path) == "[1,22,3]");
+    rlimit before{};
+    getrlimit(RLIMIT_FSIZE, &before);
+    const auto handler = std::signal(SIGXFSZ, SIG_IGN);
+    const rlimit limit{10, before.rlim_max};
+    {
+        AppendedFile file(path, "]");
+        file.append("[1");
+        file.flush();
+        file.append(",2,3,4,5,6,7,8,9");
+        setrlimit(RLIMIT_FSIZE, &limit);
+        CHECK_THROWS_WITH(file.flush(), path.string() + ": cannot be written: File too large");
+        setrlimit(RLIMIT_FSIZE, &before);
+        CHECK(read_file(path) == "[1]");
+    }
+    std::signal(SIGXFSZ, handler);
+    CHECK(read_file(path) == "[1]");
 }
 
 TEST_CASE("the hash sees every byte and its place") {

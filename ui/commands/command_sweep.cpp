@@ -60,9 +60,13 @@ namespace fs = std::filesystem;
 std::vector<std::size_t> unfinished_runs(const std::vector<sweep::RunResult>& results) {
     std::vector<std::size_t> runs;
     for (std::size_t i = 0; i < results.size(); ++i) {
-        if (!results[i].done) { runs.push_back(i); }
+        if (!results[i].done()) { runs.push_back(i); }
     }
     return runs;
+}
+
+std::size_t count_of(const std::vector<sweep::RunResult>& results, sweep::RunState state) {
+    return static_cast<std::size_t>(std::ranges::count(results, state, &sweep::RunResult::state));
 }
 
 std::unique_ptr<sweep::Engine> engine_of(
@@ -93,6 +97,11 @@ std::vector<sweep::RunResult> fly_all(
     std::vector<sweep::RunResult> results = results_of(sweep, folder, options.engine.videos);
     const std::size_t done_before = results.size() - unfinished_runs(results).size();
     if (done_before > 0) { base::print_note(quiet, fmt::format("flights that are done already: {}", done_before)); }
+    for (const std::size_t run : unfinished_runs(results)) {
+        results[run].state = sweep::RunState::NotBegun;
+        results[run].fault.clear();
+    }
+    folder.remove_logs(sweep, unfinished_runs(results));
     for (int attempt = 0; attempt <= options.retries && !base::StopSignals::received(); ++attempt) {
         const std::vector<std::size_t> left = unfinished_runs(results);
         if (left.empty()) { break; }
@@ -103,6 +112,22 @@ std::vector<sweep::RunResult> fly_all(
         results = results_of(sweep, folder, options.engine.videos);
     }
     return results;
+}
+
+/// Sets state and fault of a flight of which not all parts are done: those of a part that failed, else of one that was
+/// stopped. A flight of which only some parts have begun counts as stopped. False where all parts are done.
+bool set_fault_of_parts(std::span<const sweep::RunResult> parts, sweep::RunResult& flight) {
+    using sweep::RunState;
+    const auto first = [&](RunState state) { return std::ranges::find(parts, state, &sweep::RunResult::state); };
+    auto part = first(RunState::Failed);
+    if (part == parts.end()) { part = first(RunState::Stopped); }
+    if (part == parts.end()) { part = first(RunState::NotBegun); }
+    if (part == parts.end()) { return false; }
+    flight.state = part->state;
+    if (std::ranges::count(parts, RunState::NotBegun, &sweep::RunResult::state) == std::ssize(parts)) { return true; }
+    if (part->state == RunState::NotBegun) { flight.state = RunState::Stopped; }
+    flight.fault = fmt::format("{}: {}", part->name, part->fault.empty() ? text_of(part->state) : part->fault);
+    return true;
 }
 
 /// Flies the parts of what is not done yet and puts them together; gives what came of the whole flights.
@@ -123,18 +148,15 @@ SweepResults fly_in_parts(const SweepOptions& options, const sweep::Sweep& sweep
     for (std::size_t i = 0; i < to_fly.runs.size(); ++i) {
         const sweep::SweepRun& whole = to_fly.runs[i];
         const auto own = std::span(part_results).subspan(i * count, count);
-        const auto failed = std::ranges::find(own, false, &sweep::RunResult::done);
         auto& result = *std::ranges::find(results, whole.name, &sweep::RunResult::name);
-        if (failed != own.end()) {
-            result.fault = fmt::format("{}: {}", failed->name, failed->fault);
-            continue;
-        }
+        if (set_fault_of_parts(own, result)) { continue; }
         std::vector<fs::path> recordings;
         for (const sweep::RunResult& part : own) { recordings.push_back(part_folder.recording(part.name)); }
         try {
             sweep::merge_parts(whole, folder.recording(whole.name), recordings,
                 videos ? std::optional(folder.video(whole.name)) : std::nullopt);
         } catch (const Error& fault) {
+            result.state = sweep::RunState::Failed;
             result.fault = fault.what();
             continue;
         }
@@ -178,7 +200,12 @@ std::vector<report::ResultTable> problem_table(
     if (const auto missing = unfinished_runs(results); !missing.empty()) {
         tables.push_back({.title = "Flights that are not done", .note = "The same command flies them."});
         for (const std::size_t i : missing) {
-            tables.back().add({{"flight", results[i].name}, {"why", results[i].fault}});
+            if (results[i].state != sweep::RunState::NotBegun) {
+                tables.back().add({{"flight", results[i].name}, {"why", results[i].fault}});
+            }
+        }
+        if (const auto count = count_of(results, sweep::RunState::NotBegun); count > 0) {
+            tables.back().add({{"flight", fmt::format("{} flights", count)}, {"why", "not begun"}});
         }
     }
     if (!hash_mismatches.empty()) {
@@ -193,7 +220,7 @@ void write_results(const sweep::Sweep& sweep, const sweep::SweepFolder& folder,
     write_file(folder.path() / "sweep.csv", sweep::sweep_csv(folder, sweep, results));
     std::vector<report::LoadedRecording> recordings;
     for (const sweep::RunResult& result : results) {
-        if (result.done) { recordings.push_back(report::load_recording(folder.recording(result.name))); }
+        if (result.done()) { recordings.push_back(report::load_recording(folder.recording(result.name))); }
     }
     write_file(folder.path() / "report.html",
         report::html_report(recordings, problem_table(results, hash_mismatches), folder.path()));
@@ -201,22 +228,33 @@ void write_results(const sweep::Sweep& sweep, const sweep::SweepFolder& folder,
 
 void print_end(const sweep::Sweep& sweep, const std::vector<sweep::RunResult>& results,
     const std::vector<std::string>& hash_mismatches, const std::string& machine_sharing, bool json) {
-    const std::size_t missing = unfinished_runs(results).size();
+    using sweep::RunState;
+    const std::size_t done = count_of(results, RunState::Flown);
     if (json) {
         base::JsonValue runs = base::JsonValue::list({});
         for (const sweep::RunResult& result : results) {
             runs.push_back(report::json_of(sweep::result_columns(), result));
         }
-        base::print_value({{"name", sweep.name}, {"flown", machine_sharing}, {"done", results.size() - missing},
-                              {"of", results.size()}, {"differences", hash_mismatches}, {"runs", runs}},
+        base::print_value(
+            {{"name", sweep.name}, {"flown", machine_sharing}, {"done", done}, {"of", results.size()},
+                {"failed", count_of(results, RunState::Failed)}, {"stopped", count_of(results, RunState::Stopped)},
+                {"not_begun", count_of(results, RunState::NotBegun)}, {"differences", hash_mismatches}, {"runs", runs}},
             true);
         return;
     }
+    std::string counts; // " (2 failed, 9001 not begun)"
+    for (const RunState state : {RunState::Failed, RunState::Stopped, RunState::NotBegun}) {
+        if (const auto count = count_of(results, state); count > 0) {
+            counts += fmt::format("{}{} {}", counts.empty() ? " (" : ", ", count, text_of(state));
+        }
+    }
+    counts += counts.empty() ? "" : ")";
     std::fputs(
-        fmt::format("{} of {} flights done, {}\n", results.size() - missing, results.size(), machine_sharing).c_str(),
-        stdout);
+        fmt::format("{} of {} flights done{}, {}\n", done, results.size(), counts, machine_sharing).c_str(), stdout);
     for (const sweep::RunResult& result : results) {
-        if (!result.done) { std::fputs(fmt::format("failed: {}: {}\n", result.name, result.fault).c_str(), stdout); }
+        if (!result.done() && result.state != RunState::NotBegun) {
+            std::fputs(fmt::format("{}: {}: {}\n", text_of(result.state), result.name, result.fault).c_str(), stdout);
+        }
     }
     for (const std::string& line : hash_mismatches) { std::fputs((line + "\n").c_str(), stdout); }
 }
@@ -244,19 +282,25 @@ void run_sweep(const SweepOptions& options) {
     if (options.split) { // before anything is written
         sweep::split_sweep(sweep, *options.split, options.engine.videos);
     }
+    // Flown in another order than the file's, which all results have.
+    const std::vector<std::size_t> order = sweep::flying_order(sweep);
+    sweep::Sweep to_fly{sweep.name, {}};
+    for (const std::size_t run : order) { to_fly.runs.push_back(sweep.runs[run]); }
     const sweep::SweepFolder folder(fs::absolute(options.out.value_or(sweep.name)).lexically_normal());
-    folder.prepare(sweep);
+    folder.prepare(to_fly);
     if (options.engine.videos) {
         make_folder(folder.path() / "videos");
         report::check_video(folder.video(sweep.runs.front().name));
     }
     const base::StopSignals stop_signals;
-    const SweepResults flown = fly_unfinished_runs(options, sweep, folder);
-    const std::vector<std::string> hash_mismatches = sweep::hash_mismatches(sweep, flown.results);
-    write_results(sweep, folder, flown.results, hash_mismatches);
-    print_end(sweep, flown.results, hash_mismatches, flown.machine_sharing, options.json);
+    const SweepResults flown = fly_unfinished_runs(options, to_fly, folder);
+    std::vector<sweep::RunResult> results(order.size());
+    for (std::size_t i = 0; i < order.size(); ++i) { results[order[i]] = flown.results[i]; }
+    const std::vector<std::string> hash_mismatches = sweep::hash_mismatches(sweep, results);
+    write_results(sweep, folder, results, hash_mismatches);
+    print_end(sweep, results, hash_mismatches, flown.machine_sharing, options.json);
     base::print_note(options.quiet, fmt::format("results: {0}/sweep.csv, {0}/report.html", folder.path().string()));
-    if (!hash_mismatches.empty() || !unfinished_runs(flown.results).empty()) { throw CheckFailed(); }
+    if (!hash_mismatches.empty() || !unfinished_runs(results).empty()) { throw CheckFailed(); }
 }
 
 std::vector<Option> options_of(SweepOptions& options) {
@@ -315,9 +359,11 @@ Command sweep_command() {
                   "  octant sweep budgets.toml --on slurm --batch minutes=30 --sbatch=--partition=long\n"
                   "  octant sweep budgets.toml --on parallel --batch hosts=machines.txt\n"
                   "  octant sweep long.toml --split 4 --batch share-cores --video\n"
-                  "Flights that are done are not flown again. Exit code 1: a flight failed, or flights with the same "
-                  "settings "
-                  "have different hashes.",
+                  "Flights that are done are not flown again. All first repeats are flown before all second ones, in "
+                  "an order shuffled by the sweep's name; results stand in the order of the file.\n"
+                  "Exit code 1: a flight failed or has not begun, or flights with the same settings have different "
+                  "hashes. Exit code 2: the scheduler refused the flights; its message is printed. A sweep that a "
+                  "signal stopped ends by that signal.",
         .run = [options] { run_sweep(*options); }};
 }
 

@@ -20,6 +20,7 @@
 #include <chrono>
 #include <cmath>
 #include <fmt/format.h>
+#include <limits>
 #include <list>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -129,6 +130,9 @@ public:
         tracks_.emplace_back(folder / "track.csv", flightpaths::track_csv(path));
         tracks_.emplace_back(
             folder / "track.acmi", flightpaths::track_acmi(path, acmi_header(world, path, world.ground.frame.get())));
+        append_until(
+            -std::numeric_limits<double>::infinity()); // the heads: a kill before the first picture leaves them
+        flush();
     }
 
     void finish(const Session& session, double flown_until_s) override {
@@ -138,7 +142,9 @@ public:
     }
 
 private:
-    void append(const Session& /*session*/, double time_s) override {
+    void append(const Session& /*session*/, double time_s) override { append_until(time_s); }
+
+    void append_until(double time_s) {
         for (Track& track : tracks_) {
             const std::string_view flown = rows_until(track.text, track.written, time_s);
             track.file.append(flown);

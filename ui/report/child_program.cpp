@@ -162,7 +162,8 @@ ProgramResult ChildProgram::finish() {
     ProgramResult ending;
     ending.succeeded = WIFEXITED(status) && WEXITSTATUS(status) == 0;
     ending.output = all_of(output_);
-    ending.last_error_line = last_line(all_of(error_pipe_));
+    ending.errors = all_of(error_pipe_);
+    ending.last_error_line = last_line(ending.errors);
     if (ending.last_error_line.empty() && !ending.succeeded) { ending.last_error_line = exit_text(status); }
     return ending;
 }

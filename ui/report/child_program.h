@@ -13,6 +13,7 @@ namespace octant::ui::report {
 struct ProgramResult {
     bool succeeded = false;      ///< exit code 0
     std::string output;          ///< all of its standard output
+    std::string errors;          ///< all of its standard error
     std::string last_error_line; ///< last line of its standard error, or how it ended
 };
 

@@ -29,8 +29,8 @@ std::string plain_field(std::string text) {
     return text;
 }
 
-// A trace for Perfetto and chrome://tracing: a list of events that both also read without its end (Trace Event Format,
-// "JSON Array Format"), times in microseconds.
+// A trace for Perfetto and chrome://tracing: a list of events (Trace Event Format, "JSON Array Format"), times in
+// microseconds. The list is closed at each flush, as parsers of JSON refuse one without its end.
 
 void append_duration(std::string& text, const char* name, double start_us, double duration_us) {
     text += fmt::format(",\n{{\"name\":\"{}\",\"ph\":\"X\",\"ts\":{:.3f},\"dur\":{:.3f},\"pid\":1,\"tid\":1", name,
@@ -153,7 +153,7 @@ fs::path begin_recording(const fs::path& folder, RunInfo& info) {
 RecordingWriter::RecordingWriter(fs::path folder, RunInfo info, int flush_every_frames)
     : folder_(create_folder(std::move(folder))), lock_(folder_), info_(std::move(info)),
       flush_every_frames_(flush_every_frames), frames_file_(begin_recording(folder_, info_)),
-      mangohud_file_(folder_ / "mangohud.csv"), trace_file_(folder_ / "trace.json"),
+      mangohud_file_(folder_ / "mangohud.csv"), trace_file_(folder_ / "trace.json", std::string(trace_end)),
       counters_file_(folder_ / counters_name) {
     assert(flush_every_frames >= 1);
     frames_file_.append(frame_csv_header());
@@ -212,7 +212,6 @@ Statistics RecordingWriter::finish(const RunSummary& summary) {
     frames_file_.flush();
     const Statistics statistics = times_.statistics();
     write_file(folder_ / "run.json", run_json(info_, summary, statistics));
-    trace_file_.append(trace_end);
     flush();
     return statistics;
 }

@@ -169,11 +169,21 @@ std::string run_json(const RunInfo& info, const RunSummary& end, const Statistic
     return json_text(json);
 }
 
+void check_format_version(const std::filesystem::path& path, const Json& run) {
+    const Json version = member(run, "format_version");
+    const bool is_newer = version.is_number() && version.get<double>() > format_version;
+    if (is_newer || !(version.is_null() || version.is_number_integer())) {
+        throw_error_in(path, fmt::format("expected format_version {} or earlier, got {}{}", format_version,
+                                 printable(display_text(version)), is_newer ? ": a newer Octant wrote it" : ""));
+    }
+}
+
 RunFile read_run_file(const std::filesystem::path& path) {
     const Json json = parsed_json(path, read_text_file(path));
     if (text_in(json, "format") != format_name) {
         throw_error_in(path, fmt::format("expected \"format\": \"{}\", got none", format_name));
     }
+    check_format_version(path, json);
     RunFile run;
     run.title = text_in(json, "title");
     append_rows(run.settings, member(json, "settings"), "");
@@ -199,10 +209,13 @@ RunFile read_run_file(const std::filesystem::path& path) {
 }
 
 bool is_run_file(const std::filesystem::path& path) {
+    Json json;
     try {
-        read_run_file(path);
-        return true;
+        json = parsed_json(path, read_text_file(path));
     } catch (const Error&) { return false; }
+    if (text_in(json, "format") != format_name) { return false; }
+    check_format_version(path, json);
+    return true;
 }
 
 namespace {

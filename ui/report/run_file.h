@@ -84,10 +84,14 @@ struct RunFile {
 };
 
 /// Reads run.json. Missing entries stay empty, so that older recordings can be shown. Throws Error when it is not JSON
-/// or not from a recording.
+/// or not from a recording, or when a newer program wrote it.
 RunFile read_run_file(const std::filesystem::path& path);
 
-/// True when the file is a run.json of ours.
+/// Throws Error for a run.json (parsed) whose format_version is newer than this program's, or no whole number: names in
+/// it may mean something else. A run.json without format_version passes.
+void check_format_version(const std::filesystem::path& path, const nlohmann::ordered_json& run);
+
+/// True when the file is a run.json of ours. Throws Error when a newer program wrote it.
 bool is_run_file(const std::filesystem::path& path);
 
 /// JSON text from outside, names in their order. `path` is only named in errors. Throws Error "file:line: ..." for what

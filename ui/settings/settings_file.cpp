@@ -103,7 +103,10 @@ RunSettings read_settings_file(const std::filesystem::path& path, std::vector<st
     const std::string text = read_text_file(path, largest_bytes);
     ordered_json json = report::parsed_json(path, text);
     const bool recorded = json.is_object() && json.contains("settings");
-    if (recorded) { json = ordered_json(json["settings"]); }
+    if (recorded) {
+        report::check_format_version(path, json);
+        json = ordered_json(json["settings"]);
+    }
     if (!json.is_object()) {
         throw_error_at(path, 1, fmt::format("expected a JSON object of settings, got {}", json.type_name()));
     }

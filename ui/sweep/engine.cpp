@@ -62,6 +62,8 @@ std::string sbatch_script(const Sweep& sweep, const SweepFolder& folder, const E
     text += fmt::format("#SBATCH --chdir=\"{}\"\n#SBATCH --output=\"{}/logs/slurm-%a.log\"\n", place, pattern);
     text += options.share_cores ? "" : "#SBATCH --exclusive\n";
     for (const std::string& option : options.sbatch_options) { text += fmt::format("#SBATCH {}\n", option); }
+    // Where a node does not have the folder, Slurm starts the task in another.
+    text += fmt::format("cd {} || exit 2\n", shell_quoted(place));
     text += "fault=0\nwhile read -r run; do\n  ";
     text += fly_command(options, "$run");
     text += fmt::format(" </dev/null || fault=$?\ndone < <(awk \"NR % {} == ($SLURM_ARRAY_TASK_ID + 1) % {}\" "
@@ -183,28 +185,54 @@ std::unique_ptr<Engine> local_engine(const Sweep& sweep, const SweepFolder& fold
 
 namespace {
 
-/// Runs a program that must be there and waits; gives its output. When a signal came, `stop` is called once with the
-/// program, and it is waited for all the same. What it says when it fails is a note: which runs are done is seen in
-/// their folders.
-std::string run_engine(
+/// What a program that failed said, in one line without its name, each of its lines once: "Invalid partition name".
+std::string complaint_of(const std::string& program, const report::ProgramResult& ending) {
+    std::vector<std::string_view> lines;
+    for (std::string_view line : split_lines(ending.errors)) {
+        for (const std::string& start :
+            {program + ": ", std::string("error: "), std::string("Error: "), std::string("fatal: ")}) {
+            if (line.starts_with(start)) { line.remove_prefix(start.size()); }
+        }
+        if (!split_words(line).empty() && std::ranges::find(lines, line) == lines.end()) { lines.push_back(line); }
+    }
+    return lines.empty() ? ending.last_error_line : fmt::format("{}", fmt::join(lines, "; "));
+}
+
+[[noreturn]] void refuse(const std::string& program, const report::ProgramResult& ending) {
+    throw Error(fmt::format("{}: {}", program, complaint_of(program, ending)));
+}
+
+ChildProgram start_installed(const std::string& program, const std::vector<std::string>& words) {
+    auto child = ChildProgram::start(words);
+    if (!child) { throw Error(fmt::format("expected the program {}, which is not installed", program)); }
+    child->end_input();
+    return std::move(*child);
+}
+
+/// Runs a program that must be there and waits. When a signal came, `stop` is called once with the program, and it is
+/// waited for all the same.
+report::ProgramResult run_engine(
     const std::vector<std::string>& words, bool quiet, const std::function<void(ChildProgram&)>& stop) {
     constexpr auto look_every = std::chrono::milliseconds(50);
-    auto child = ChildProgram::start(words);
-    if (!child) { throw Error(fmt::format("expected the program {}, which is not installed", words.front())); }
-    child->end_input();
+    ChildProgram child = start_installed(words.front(), words);
     bool is_reported = false;
-    while (child->is_running()) {
+    while (child.is_running()) {
         if (base::StopSignals::received() && !std::exchange(is_reported, true)) {
             base::print_note(quiet, fmt::format("note: {}: ending {}", base::StopSignals::name(), words.front()));
-            stop(*child);
+            stop(child);
         }
         std::this_thread::sleep_for(look_every);
     }
-    const report::ProgramResult ending = child->finish();
-    if (!ending.succeeded && !is_reported) {
-        base::print_note(quiet, fmt::format("note: {}: {}", words.front(), ending.last_error_line));
-    }
-    return ending.output;
+    return child.finish();
+}
+
+/// Tells how a scheduler that was given these runs failed: by an Error when none of the runs has begun, else by a note,
+/// as the runs' logs then say what failed.
+void check_scheduler(const std::string& program, const report::ProgramResult& ending, bool any_begun, bool quiet) {
+    if (ending.succeeded || base::StopSignals::received()) { return; }
+    const std::string complaint = fmt::format("{}: {}", program, complaint_of(program, ending));
+    if (!any_begun) { throw Error(complaint + (ending.errors.empty() ? " and no flight began" : "")); }
+    base::print_note(quiet, "note: " + complaint);
 }
 
 /// The number in "Submitted batch job 123"; empty where there is none.
@@ -217,28 +245,33 @@ std::string job_in(const std::string& text) {
 }
 
 /// Waits until a job has left Slurm's queue: tasks that were on a node which died are there again when `sbatch --wait`
-/// takes the job for ended.
+/// takes the job for ended. Throws Error when Slurm does not answer several times, as the job's flights may then still
+/// be flown.
 void wait_for_queue(const std::string& job) {
     constexpr auto look_every = std::chrono::seconds(2);
+    constexpr int max_failures = 3; // in a row; squeue itself tries for some seconds
+    int failures = 0;
     while (!job.empty()) {
         auto child = ChildProgram::start({"squeue", "--noheader", "--jobs=" + job});
         const report::ProgramResult ending = child ? child->finish() : report::ProgramResult();
-        if (!ending.succeeded || ending.output.empty()) { return; }
+        const bool is_gone = !child || ending.errors.find("Invalid job id") != std::string::npos;
+        if (is_gone || (ending.succeeded && ending.output.empty())) { return; }
+        failures = ending.succeeded ? 0 : failures + 1;
+        if (failures == max_failures && base::StopSignals::received()) { return; }
+        if (failures == max_failures) { refuse("squeue", ending); }
         std::this_thread::sleep_for(look_every);
     }
 }
 
 void check_installed(const std::string& program) {
-    auto child = ChildProgram::start({program, "--version"});
-    if (!child || !child->finish().succeeded) {
-        throw Error(fmt::format("expected the program {}, which is not installed", program));
-    }
+    const report::ProgramResult ending = start_installed(program, {program, "--version"}).finish();
+    if (!ending.succeeded) { refuse(program, ending); }
 }
 
 class SlurmEngine : public Engine {
 public:
     SlurmEngine(const Sweep& sweep, const SweepFolder& folder, EngineOptions options)
-        : folder_(folder), options_(std::move(options)), tasks_(tasks_of(sweep, options_)) {
+        : sweep_(sweep), folder_(folder), options_(std::move(options)), tasks_(tasks_of(sweep, options_)) {
         check_installed("sbatch");
         options_.machine_sharing = options_.share_cores ? "by Slurm, on shared nodes: compare no frame times"
                                                         : "by Slurm, each alone on its node";
@@ -257,8 +290,10 @@ public:
                 sbatch.signal(SIGTERM);
             }
         };
-        wait_for_queue(job_in(
-            run_engine({"sbatch", "--wait", "--array=" + array_of(runs), script().string()}, options_.quiet, cancel)));
+        const report::ProgramResult ending =
+            run_engine({"sbatch", "--wait", "--array=" + array_of(runs), script().string()}, options_.quiet, cancel);
+        wait_for_queue(job_in(ending.output));
+        check_scheduler("sbatch", ending, folder_.any_begun(sweep_, runs), options_.quiet);
     }
 
     std::string machine_sharing() const override { return options_.machine_sharing; }
@@ -270,6 +305,7 @@ private:
         return task_list(runs, tasks_) + (options_.jobs > 0 ? fmt::format("%{}", options_.jobs) : std::string());
     }
 
+    const Sweep& sweep_;
     const SweepFolder& folder_;
     EngineOptions options_;
     int tasks_;
@@ -292,12 +328,14 @@ public:
         write_file(folder_.path() / "todo.txt", names);
         base::print_note(options_.quiet, fmt::format("{} flights by {}", runs.size(), script().string()));
         // The first signal: no more flights; the second: those that are flown end in order.
-        run_engine({"bash", script().string()}, options_.quiet, [](ChildProgram& parallel) {
-            constexpr auto between = std::chrono::milliseconds(500);
-            parallel.signal(SIGTERM);
-            std::this_thread::sleep_for(between);
-            parallel.signal(SIGTERM);
-        });
+        const report::ProgramResult ending =
+            run_engine({"bash", script().string()}, options_.quiet, [](ChildProgram& parallel) {
+                constexpr auto between = std::chrono::milliseconds(500);
+                parallel.signal(SIGTERM);
+                std::this_thread::sleep_for(between);
+                parallel.signal(SIGTERM);
+            });
+        check_scheduler("parallel", ending, folder_.any_begun(sweep_, runs), options_.quiet);
     }
 
     std::string machine_sharing() const override { return options_.machine_sharing; }

@@ -33,8 +33,9 @@ public:
     Engine(Engine&&) = delete;
     Engine& operator=(Engine&&) = delete;
 
-    /// Attempts each of these runs once and waits for all of them; the results are in the folder. `runs`: indices into
-    /// the sweep's runs. Throws Error when the engine itself fails.
+    /// Attempts each of these runs once, in this order, and waits for all of them; the results are in the folder.
+    /// `runs`: indices into the sweep's runs. Throws Error with the scheduler's message if it fails and none of these
+    /// runs has a log, or if it does not tell any more whether they have ended.
     virtual void fly(std::span<const std::size_t> runs) = 0;
 
     /// How the runs shared machines, for the report: "one at a time".
@@ -44,11 +45,12 @@ public:
 /// Child processes on this machine, one at a time unless EngineOptions::share_cores is set.
 std::unique_ptr<Engine> local_engine(const Sweep& sweep, const SweepFolder& folder, EngineOptions options);
 
-/// A Slurm job array, submitted by a script in the folder. Throws Error if sbatch is not installed.
+/// A Slurm job array, submitted by a script in the folder. Throws Error if sbatch is not installed or does
+/// not work.
 std::unique_ptr<Engine> slurm_engine(const Sweep& sweep, const SweepFolder& folder, EngineOptions options);
 
 /// GNU parallel over ssh, started by a script in the folder. All machines must see the folder under the same name.
-/// Throws Error if GNU parallel is not installed.
+/// Throws Error if GNU parallel is not installed or does not work.
 std::unique_ptr<Engine> parallel_engine(const Sweep& sweep, const SweepFolder& folder, EngineOptions options);
 
 /// The text quoted as one shell word.

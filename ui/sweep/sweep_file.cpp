@@ -2,6 +2,8 @@
 
 #include "flightpaths/toml_fields.h"
 #include "sim/base/error.h"
+#include "sim/base/hash.h"
+#include "sim/base/random_generator.h"
 #include "sim/base/text_file.h"
 #include "ui/base/data_files.h"
 #include "ui/settings/aircraft_entry.h"
@@ -11,6 +13,7 @@
 #include <array>
 #include <cmath>
 #include <fmt/format.h>
+#include <numeric>
 #include <set>
 #include <string_view>
 
@@ -283,5 +286,23 @@ Sweep SweepReader::sweep() {
 } // namespace
 
 Sweep read_sweep(const fs::path& file) { return SweepReader(file).sweep(); }
+
+std::vector<std::size_t> flying_order(const Sweep& sweep) {
+    const auto repeat_of = [&](std::size_t run) { return sweep.runs[run].repeat; };
+    std::vector<std::size_t> order(sweep.runs.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::ranges::stable_sort(order, {}, repeat_of);
+    RandomGenerator random(checksum_of(sweep.name));
+    for (auto begin = order.begin(); begin != order.end();) {
+        const auto end =
+            std::find_if(begin, order.end(), [&](auto run) { return repeat_of(run) != repeat_of(*begin); });
+        for (auto left = end - begin; left > 1; --left) { // std::shuffle differs between libraries
+            std::iter_swap(
+                begin + left - 1, begin + static_cast<std::ptrdiff_t>(random.between(0.0, static_cast<double>(left))));
+        }
+        begin = end;
+    }
+    return order;
+}
 
 } // namespace octant::ui::sweep

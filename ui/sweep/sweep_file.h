@@ -2,6 +2,7 @@
 
 #include "ui/settings/settings.h"
 
+#include <cstddef>
 #include <filesystem>
 #include <string>
 #include <utility>
@@ -20,7 +21,7 @@ struct SweepRun {
 /// The flights of a sweep file.
 struct Sweep {
     std::string name;
-    std::vector<SweepRun> runs;          ///< in the order of the file; the last varied setting changes fastest
+    std::vector<SweepRun> runs;          ///< in the order of the file, in which repeats change fastest
     std::vector<std::string> notes = {}; ///< of values under old names, each once
 };
 
@@ -42,5 +43,10 @@ inline constexpr std::size_t max_runs = 100000;
 /// Relative file names are relative to the sweep's folder if the file exists there. Throws Error "file:line: expected
 /// ..., got ..." for anything else, and for settings that octant fly refuses without loading a world.
 Sweep read_sweep(const std::filesystem::path& file);
+
+/// Indices of the sweep's runs in the order of flying: all first repeats, then all second ones; shuffled within each
+/// repeat, so that a machine that slowly becomes slower does not become a difference between variants. The same for
+/// each call: the order depends on the sweep's name and runs only.
+std::vector<std::size_t> flying_order(const Sweep& sweep);
 
 } // namespace octant::ui::sweep

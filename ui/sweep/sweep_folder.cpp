@@ -94,25 +94,52 @@ void SweepFolder::prepare(const Sweep& sweep) const {
     write_file(folder_ / "jobs.txt", names);
 }
 
+void SweepFolder::remove_logs(const Sweep& sweep, std::span<const std::size_t> runs) const {
+    std::error_code ignored;
+    for (const std::size_t run : runs) { fs::remove(log(sweep.runs[run].name), ignored); }
+}
+
+bool SweepFolder::any_begun(const Sweep& sweep, std::span<const std::size_t> runs) const {
+    return std::ranges::any_of(runs, [&](std::size_t run) { return path_exists(log(sweep.runs[run].name)); });
+}
+
+std::string text_of(RunState state) {
+    constexpr std::array texts{"flown", "failed", "stopped", "not begun"};
+    return texts.at(static_cast<std::size_t>(state));
+}
+
+namespace {
+
+/// Sets state and fault of a run that is not done. `is_recorded`: it has a run.json.
+void set_fault(const SweepFolder& folder, bool is_recorded, RunResult& result) {
+    if (!path_exists(folder.log(result.name))) { return; }
+    const std::string last = last_log_line(folder.log(result.name));
+    const std::string stopped =
+        is_recorded ? report::read_run_file(folder.recording(result.name) / "run.json").stopped : std::string();
+    // An error comes after a run.json that an earlier call left.
+    const bool is_stopped = !stopped.empty() && !last.starts_with("octant: ");
+    result.state = is_stopped ? RunState::Stopped : RunState::Failed;
+    result.fault = is_stopped ? "ended by " + stopped : last.empty() ? "was not flown to its end" : last;
+}
+
+} // namespace
+
 RunResult result_of(const SweepFolder& folder, const SweepRun& run, bool with_video) {
     RunResult result;
     result.name = run.name;
     const fs::path recording = folder.recording(run.name);
+    const bool is_recorded = report::is_run_file(recording / "run.json");
+    bool done = false;
     try {
-        result.done = flight::is_already_recorded(
+        done = flight::is_already_recorded(
             {recording, with_video ? std::optional(folder.video(run.name)) : std::nullopt, std::nullopt, {}},
             world::with_absolute_paths(run.settings));
-    } catch (const Error& fault) { // a file of the run is missing: its log says so too
-        result.fault = fault.what();
+    } catch (const Error&) {} // a file of the run is missing: its log says so
+    if (!done) {
+        set_fault(folder, is_recorded, result);
         return result;
     }
-    if (!result.done) {
-        const fs::path file = recording / "run.json";
-        const std::string stopped = report::is_run_file(file) ? report::read_run_file(file).stopped : std::string();
-        const std::string words = stopped.empty() ? last_log_line(folder.log(run.name)) : "ended by " + stopped;
-        result.fault = words.empty() ? "was not flown to its end" : words;
-        return result;
-    }
+    result.state = RunState::Flown;
     const report::RunFile file = report::read_run_file(recording / "run.json");
     result.host = file.machine_info.host;
     result.state_hash = file.state_hash;
@@ -126,7 +153,7 @@ std::vector<std::string> hash_mismatches(const Sweep& sweep, std::span<const Run
     std::map<std::string, const RunResult*> firsts;
     for (std::size_t i = 0; i < sweep.runs.size(); ++i) {
         const RunResult& now = results[i];
-        if (!now.done || follows_clock(sweep.runs[i].settings)) { continue; }
+        if (!now.done() || follows_clock(sweep.runs[i].settings)) { continue; }
         const auto [first, is_first] = firsts.emplace(key_of(sweep.runs[i]), &now);
         const RunResult& before = *first->second;
         const bool states = before.state_hash != now.state_hash;
@@ -141,14 +168,28 @@ std::vector<std::string> hash_mismatches(const Sweep& sweep, std::span<const Run
 
 std::span<const report::Column<RunResult>> result_columns() {
     using R = RunResult;
+    constexpr auto state_column = [] {
+        auto column =
+            report::column<&R::name>("state", "state", 0, "flown, failed, stopped (by a signal) or not begun");
+        column.text = [](const R& run) { return text_of(run.state); };
+        return column;
+    };
+    constexpr auto done_column = [] {
+        report::Column<R> column;
+        column.key = column.name = "done";
+        column.kind = report::ColumnKind::Truth;
+        column.value = [](const R& run) { return run.done() ? 1.0 : 0.0; };
+        return column;
+    };
     static constexpr std::array columns{
         report::column<&R::name>("name", "flight"),
-        report::column<&R::done>("done", "done"),
+        state_column(),
+        done_column(),
         report::column<&R::host>("host", "machine"),
         recorded_hash<&R::state_hash>("state_hash", "states"),
         recorded_hash<&R::picture_hash>("picture_hash", "pictures"),
         report::column<&R::noise>("noise", "noise", 0, "why its timings are not to be trusted; empty = quiet"),
-        report::column<&R::fault>("fault", "why", 0, "why it is not done; else empty"),
+        report::column<&R::fault>("fault", "why", 0, "why a flight that has begun is not done; else empty"),
     };
     return columns;
 }
@@ -166,7 +207,7 @@ std::string sweep_csv(const SweepFolder& folder, const Sweep& sweep, std::span<c
             row.emplace_back(std::string(column.key), report::text_of(column, result));
         };
         std::ranges::for_each(columns.subspan(1, columns.size() - 2), add);
-        const report::NamedValues summary = result.done
+        const report::NamedValues summary = result.done()
                                                 ? report::read_run_file(folder.recording(run.name) / "run.json").summary
                                                 : report::NamedValues();
         for (const report::Statistic& statistic : report::all_statistics()) {

@@ -1,3 +1,4 @@
+#include "flightpaths/acmi_recording.h"
 #include "sim/base/output_file.h"
 #include "sim/base/text_file.h"
 #include "tests/scratch.h"
@@ -8,8 +9,10 @@
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <csignal>
 #include <map>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <utility>
 #include <vector>
@@ -57,7 +60,12 @@ TEST_CASE("a flight that was killed is reported, losing at most its last second"
     CHECK(run.err.find("ended early") != std::string::npos);
     CHECK(fs::exists(page));
     CHECK(files_in(folder) == left);
-    CHECK(left.contains("mangohud.csv"));
+    CHECK(nlohmann::json::parse(left.at("trace.json")).size() > 30 * 5);
+    CHECK(left.at("mangohud.csv").ends_with('\n'));
+    const std::string rows = left.at("mangohud.csv").substr(left.at("mangohud.csv").find("fps,"));
+    for (const std::string_view line : split_lines(rows)) { CHECK(std::ranges::count(line, ',') == 15); }
+    CHECK(left.at("track.acmi").ends_with('\n'));
+    CHECK(flightpaths::parse_acmi(left.at("track.acmi"), folder / "track.acmi").aircraft.size() == 1);
     const auto loaded = ui::report::load_recording(folder);
     REQUIRE(loaded.ended_early);
     REQUIRE(loaded.flight.frames() > 30);
@@ -154,14 +162,20 @@ TEST_CASE("a signal ends a sweep in order, with what is flown so far") {
     for (const auto& [number, name] : stop_signals) {
         INFO(name);
         const auto folder = made / name;
+        // The last of the file is the first in the order of flying.
         const tests::ProgramRun run =
             tests::run_octant_and_signal({"sweep", (made / "long.toml").string(), "--out", folder.string(), "--quiet"},
-                folder / "runs/40/picture-00000.png", number);
+                folder / "runs/60/picture-00000.png", number);
         INFO(run.out << run.err);
         CHECK(run.exit_code == 128 + number);
+        CHECK(run.out.find("0 of 3 flights done (1 stopped, 2 not begun)") != std::string::npos);
+        CHECK(run.out.find("stopped: 60: ended by SIGTERM after ") != std::string::npos);
+        CHECK(run.out.find("failed") == std::string::npos);
+        CHECK(read_file(folder / "sweep.csv").find("\n40,40,1,not begun,0,") != std::string::npos);
         CHECK(fs::exists(folder / "report.html"));
-        CHECK(fs::exists(folder / "runs/40/report.html"));
-        CHECK_FALSE(fs::exists(folder / "runs/40/recording.lock"));
+        CHECK(fs::exists(folder / "runs/60/report.html"));
+        CHECK_FALSE(fs::exists(folder / "runs/60/recording.lock"));
+        CHECK_FALSE(fs::exists(folder / "runs/40"));
         CHECK_FALSE(fs::exists(folder / "runs/50"));
     }
 }

@@ -11,17 +11,8 @@
 
 using namespace octant;
 using namespace octant::ui::report;
-
-namespace {
-
-/// A program of that name in `folder` which runs `script`.
-void make_program(const std::filesystem::path& folder, const std::string& name, const std::string& script) {
-    make_folder(folder);
-    write_file(folder / name, "#!/bin/sh\n" + script + "\n");
-    std::filesystem::permissions(folder / name, std::filesystem::perms::owner_all);
-}
-
-} // namespace
+using octant::tests::make_program;
+using octant::tests::SearchPath;
 
 TEST_CASE("a program is fed, and its output and its end are reported") {
     auto cat = ChildProgram::start({"cat", "-"});

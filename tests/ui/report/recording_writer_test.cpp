@@ -4,6 +4,7 @@
 #include "ui/report/frame_csv.h"
 #include "ui/report/kernel_counters.h"
 #include "ui/report/loaded_recording.h"
+#include "ui/report/packed_recording.h"
 #include "ui/report/recording_writer.h"
 #include "ui/report/statistics.h"
 
@@ -181,6 +182,7 @@ TEST_CASE("a full disk gives one error and leaves a recording that loads") {
     const LoadedRecording loaded = load_recording(scratch / "rec");
     CHECK(loaded.ended_early);
     CHECK(loaded.flight.frames() > 5);
+    CHECK(nlohmann::json::parse(read_file(scratch / "rec/trace.json")).size() > 5);
 }
 
 TEST_CASE("a killed recording loads with the figures of what is left") {
@@ -205,7 +207,22 @@ TEST_CASE("a killed recording loads with the figures of what is left") {
     CHECK(loaded.run.settings[1] == std::pair<std::string, std::string>("aircraft", "f15, 500md"));
     CHECK(loaded.run.settings[3] == std::pair<std::string, std::string>("nested.a", "1"));
     CHECK(lines_in(scratch / "rec/mangohud.csv") == 3 + 4);
-    CHECK(nlohmann::json::parse(read_file(scratch / "rec/trace.json") + "]").is_array());
+    CHECK(nlohmann::json::parse(read_file(scratch / "rec/trace.json")).size() > 6 * 5);
+}
+
+TEST_CASE("whenever a recording is killed its trace is JSON and its logs have whole lines") {
+    const ScratchFolder scratch;
+    RecordingWriter recording(scratch / "rec", made_up_info(), 3);
+    for (int frame = 0; frame < 12; ++frame) {
+        const auto trace = nlohmann::json::parse(read_file(scratch / "rec/trace.json"));
+        const auto frames = std::ranges::count_if(trace, [](const auto& event) { return event["name"] == "frame"; });
+        CHECK(frames == frame / 3 * 3);
+        CHECK(lines_in(scratch / "rec/mangohud.csv") == static_cast<std::size_t>(3 + std::max(0, frame / 3 * 3 - 2)));
+        for (const char* name : {"mangohud.csv", "frames.csv", "counters.csv"}) {
+            CHECK(read_file(scratch / "rec" / name).ends_with('\n'));
+        }
+        recording.add(made_up_frame(frame, 10.0));
+    }
 }
 
 TEST_CASE("the figures read back are those of the summary bit for bit") {
@@ -231,6 +248,35 @@ TEST_CASE("what is no recording is refused by name") {
     write_file(folder + "/run.json", "[]");
     CHECK_THROWS_WITH(
         load_recording(folder), folder + "/run.json: expected \"format\": \"octant recording\", got none");
+}
+
+TEST_CASE("a recording of a newer program is refused and never replaced") {
+    const ScratchFolder scratch;
+    record_frames(scratch / "rec", made_up_frames(3, 4.5));
+    const auto file = scratch / "rec/run.json";
+    const std::string text = read_file(file);
+    const std::string ours = "\"format_version\": 1,";
+    REQUIRE(text.find(ours) != std::string::npos);
+    const auto with_version = [&](const std::string& version) {
+        std::string other = text;
+        write_file(file, other.replace(text.find(ours), ours.size(), version));
+    };
+    for (const auto& [version, told] : std::map<std::string, std::string>{{"99", "99: a newer Octant wrote it"},
+             {"2", "2: a newer Octant wrote it"}, {"1.5", "1.5: a newer Octant wrote it"},
+             {"18446744073709551615", "18446744073709551615: a newer Octant wrote it"}, {"0.5", "0.5"}, {"\"1\"", "1"},
+             {"[1]", "1"}, {"true", "true"}}) {
+        with_version("\"format_version\": " + version + ",");
+        const std::string refused = file.string() + ": expected format_version 1 or earlier, got " + told;
+        CHECK_THROWS_WITH(load_recording(scratch / "rec"), refused);
+        CHECK_THROWS_WITH(is_run_file(file), refused);
+        CHECK_THROWS_WITH(pack_recording(scratch / "rec", scratch / "rec.zip", false), refused);
+        CHECK_THROWS_WITH(RecordingWriter(scratch / "rec", made_up_info()), refused);
+        CHECK(std::filesystem::exists(scratch / "rec/frames.csv"));
+    }
+    for (const std::string version : {"", "\"format_version\": 0,"}) {
+        with_version(version);
+        CHECK(load_recording(scratch / "rec").flight.frames() == 3);
+    }
 }
 
 TEST_CASE("numbers of a machine that no machine has count as not told") {

@@ -5,7 +5,6 @@
 #include "ui/report/png_file.h"
 #include "ui/report/recording_writer.h"
 
-#include <cstdlib>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -21,24 +20,6 @@ public:
 
 private:
     std::filesystem::path path_ = tests::empty_folder("report");
-};
-
-/// While it lives, programs are looked for in `path` only.
-class SearchPath {
-public:
-    explicit SearchPath(const std::string& path) : before_(std::getenv("PATH") != nullptr ? std::getenv("PATH") : "") {
-        setenv("PATH", path.c_str(), 1);
-    }
-
-    ~SearchPath() { setenv("PATH", before_.c_str(), 1); }
-
-    SearchPath(const SearchPath&) = delete;
-    SearchPath& operator=(const SearchPath&) = delete;
-    SearchPath(SearchPath&&) = delete;
-    SearchPath& operator=(SearchPath&&) = delete;
-
-private:
-    std::string before_;
 };
 
 /// A run of two aircraft, with something in every field.

@@ -6,7 +6,9 @@
 #include <catch2/catch.hpp>
 
 #include <array>
+#include <cstdlib>
 #include <filesystem>
+#include <set>
 
 using namespace octant;
 using namespace octant::ui::sweep;
@@ -105,6 +107,55 @@ TEST_CASE("a sweep's faults are told by file and line") {
     check_refused("repeats = 1000\n[vary]\nfov = { from = 20, to = 90, step = 0.1 }", "flights");
 }
 
+TEST_CASE("repeats are flown one after the other, and variants shuffled within each, the same for each call") {
+    const Sweep sweep = sweep_of("repeats = 3\n[vary]\nfov = [40, 50, 60, 70]");
+    std::vector<std::string> names;
+    for (const std::size_t run : flying_order(sweep)) { names.push_back(sweep.runs[run].name); }
+    // By a program of its own: 64-bit FNV-1a of the name seeds the numbers of a Fisher-Yates shuffle.
+    CHECK(names == std::vector<std::string>{"50-r1", "60-r1", "40-r1", "70-r1", "60-r2", "40-r2", "50-r2", "70-r2",
+                       "50-r3", "60-r3", "70-r3", "40-r3"});
+    CHECK(flying_order(sweep_of("")) == std::vector<std::size_t>{0});
+    CHECK(flying_order({}).empty());
+    // Each of two variants is first in about half of the repeats.
+    const Sweep pairs = sweep_of("repeats = 1000\n[vary]\nfov = [40, 50]");
+    const std::vector<std::size_t> order = flying_order(pairs);
+    int first = 0;
+    for (std::size_t i = 0; i < order.size(); i += 2) {
+        CHECK(pairs.runs[order[i]].repeat == static_cast<int>(i / 2) + 1);
+        first += pairs.runs[order[i]].varied[0].second == "40" ? 1 : 0;
+    }
+    CHECK(std::abs(first - 500) < 80); // five standard deviations
+    CHECK(std::set<std::size_t>(order.begin(), order.end()).size() == 2000);
+}
+
+TEST_CASE("a run is flown, failed, stopped or not begun by what lies in the sweep's folder") {
+    const Sweep sweep = sweep_of("[settings]\nterrain = \"none\"\n[vary]\nfov = [40, 50, 60]");
+    const SweepFolder folder(tests::empty_folder("states"));
+    folder.prepare(sweep);
+    const auto state_of = [&](std::size_t run) {
+        const RunResult result = result_of(folder, sweep.runs[run]);
+        return text_of(result.state) + ": " + result.fault;
+    };
+    CHECK(state_of(0) == "not begun: ");
+    write_file(folder.log("40"), "");
+    CHECK(state_of(0) == "failed: was not flown to its end");
+    write_file(folder.log("40"), "note: slow\noctant: expected much, got little\n\n");
+    CHECK(state_of(0) == "failed: octant: expected much, got little");
+    const auto run_file = folder.recording("50") / "run.json";
+    make_folder(run_file.parent_path());
+    write_file(run_file, R"({"format": "octant recording", "stopped": "SIGTERM after 3 of 240 frames"})");
+    CHECK(state_of(1) == "not begun: "); // an earlier call has stopped it
+    write_file(folder.log("50"), "note: slow\n");
+    CHECK(state_of(1) == "stopped: ended by SIGTERM after 3 of 240 frames");
+    constexpr std::array<std::size_t, 2> last_two{1, 2};
+    CHECK(folder.any_begun(sweep, last_two));
+    folder.remove_logs(sweep, last_two);
+    CHECK_FALSE(folder.any_begun(sweep, last_two));
+    write_file(run_file, R"({"format": "octant recording", "format_version": 99})");
+    CHECK_THROWS_WITH(
+        state_of(1), run_file.string() + ": expected format_version 1 or earlier, got 99: a newer Octant wrote it");
+}
+
 TEST_CASE("scripts of engines name each run once, whatever the program is called") {
     Sweep sweep = sweep_of("[vary]\nfov = { from = 40, to = 49, step = 1 }");
     const SweepFolder folder("/a b/sweep");
@@ -119,6 +170,7 @@ TEST_CASE("scripts of engines name each run once, whatever the program is called
     CHECK_THAT(script, Contains("#SBATCH --requeue\n"));
     CHECK_THAT(script, Contains("#SBATCH --exclusive\n"));
     CHECK_THAT(script, Contains("#SBATCH --partition=long\n"));
+    CHECK_THAT(script, Contains("cd '/a b/sweep' || exit 2\n"));
     CHECK_THAT(script, Contains("'/opt/it'\\''s/octant' fly --settings"));
     constexpr std::array<std::size_t, 3> runs{1, 5, 6};
     CHECK(task_list(runs, 4) == "1,2");
