@@ -7,7 +7,7 @@
 #include "sim/base/output_file.h"
 #include "sim/base/text_file.h"
 #include "ui/base/version.h"
-#include "ui/report/comparison.h"
+#include "ui/report/change_statistics.h"
 #include "ui/report/figures.h"
 #include "ui/report/frame_csv.h"
 #include "ui/report/run_file.h"
@@ -139,13 +139,13 @@ std::vector<SweepCell> cells_of(const Sweep& sweep, std::span<const RunResult> r
 }
 
 /// Counted frames of a run.
-struct FrameTimes {
+struct CountedFrames {
     std::vector<double> time_s;
     std::vector<double> frame_ms;
 };
 
-FrameTimes frame_times_of(const fs::path& recording) {
-    FrameTimes times;
+CountedFrames counted_frames_of(const fs::path& recording) {
+    CountedFrames times;
     report::FrameReader rows(recording / "frames.csv");
     while (const auto row = rows.next()) {
         if (row->warm_up) { continue; }
@@ -157,10 +157,10 @@ FrameTimes frame_times_of(const fs::path& recording) {
 
 /// Of frames that all repeats have. Where they are more than a figure can show, neighbours share a point: the median of
 /// their medians, the lowest and the highest of all.
-CellCurve curve_of(std::span<const FrameTimes> repeats) {
+CellCurve curve_of(std::span<const CountedFrames> repeats) {
     constexpr std::size_t max_points = 300;
     std::size_t frames = repeats.front().time_s.size();
-    for (const FrameTimes& repeat : repeats) { frames = std::min(frames, repeat.time_s.size()); }
+    for (const CountedFrames& repeat : repeats) { frames = std::min(frames, repeat.time_s.size()); }
     const std::size_t per_point = (frames + max_points - 1) / max_points;
     CellCurve curve;
     for (std::size_t begin = 0; begin < frames; begin += per_point) {
@@ -169,7 +169,7 @@ CellCurve curve_of(std::span<const FrameTimes> repeats) {
         double high_ms = 0.0;
         for (std::size_t i = begin; i < std::min(frames, begin + per_point); ++i) {
             std::vector<double> here;
-            for (const FrameTimes& repeat : repeats) { here.push_back(repeat.frame_ms[i]); }
+            for (const CountedFrames& repeat : repeats) { here.push_back(repeat.frame_ms[i]); }
             const auto [lowest, highest] = std::ranges::minmax(here);
             low_ms = std::min(low_ms, lowest);
             high_ms = std::max(high_ms, highest);
@@ -183,9 +183,9 @@ CellCurve curve_of(std::span<const FrameTimes> repeats) {
     return curve;
 }
 
-CellFigures figures_of(std::span<const FrameTimes> repeats) {
+CellFigures figures_of(std::span<const CountedFrames> repeats) {
     std::vector<report::Statistics> all;
-    for (const FrameTimes& repeat : repeats) { all.push_back(report::statistics_of_times(repeat.frame_ms)); }
+    for (const CountedFrames& repeat : repeats) { all.push_back(report::statistics_of_times(repeat.frame_ms)); }
     const auto values = [&](double report::Statistics::*figure) {
         std::vector<double> list;
         for (const report::Statistics& each : all) { list.push_back(each.*figure); }
@@ -219,7 +219,8 @@ std::string note_of(std::span<const SweepCell> cells, const Sweep& sweep, std::s
         frames_for_p95, frames_for_p99, frames_for_p999);
     const auto has_interval = [](const SweepCell& cell) { return cell.figures.low_ms.has_value(); };
     if (std::ranges::any_of(cells, has_interval)) {
-        note += " 95 %: the interval of the median frame time over repeats, by Student's t on logarithms.";
+        note += " 95 %: the interval of the median frame time over repeats, by Student's t on logarithms for 3 to 5 "
+                "repeats, by Wilcoxon's signed ranks for more.";
     }
     if (!std::ranges::all_of(cells, has_interval)) {
         note += " A cell with fewer than 3 repeats has no interval: they do not show how much repeats differ.";
@@ -642,25 +643,13 @@ void write_archive(const fs::path& zip, const fs::path& sweep_file, const Sweep&
 } // namespace
 
 std::optional<std::pair<double, double>> median_interval(std::span<const double> medians_ms) {
-    // The 97.5 % quantile for 2 and more degrees of freedom; beyond them by the expansion of R. A. Fisher and
-    // E. A. Cornish, "The percentile points of distributions having known cumulants", 1960.
-    static constexpr std::array quantiles{4.3027, 3.1824, 2.7764, 2.5706, 2.4469, 2.3646, 2.3060, 2.2622, 2.2281,
-        2.2010, 2.1788, 2.1604, 2.1448, 2.1314, 2.1199, 2.1098, 2.1009, 2.0930, 2.0860, 2.0796, 2.0739, 2.0687, 2.0639,
-        2.0595, 2.0555, 2.0518, 2.0484, 2.0452, 2.0423};
-    constexpr double normal = 1.959964;
-    if (medians_ms.size() < 3) { return std::nullopt; }
-    const auto count = static_cast<double>(medians_ms.size());
-    double mean = 0.0;
-    for (const double each : medians_ms) { mean += std::log(each) / count; }
-    double squares = 0.0;
-    for (const double each : medians_ms) { squares += (std::log(each) - mean) * (std::log(each) - mean); }
-    const std::size_t index = medians_ms.size() - 3;
-    const double quantile =
-        index < quantiles.size() ? quantiles[index] : normal + (std::pow(normal, 3) + normal) / (4.0 * (count - 1.0));
-    const double half = quantile * std::sqrt(squares / (count - 1.0) / count);
+    std::vector<double> logarithms;
+    for (const double each_ms : medians_ms) { logarithms.push_back(std::log(each_ms)); }
+    const auto centre = report::centre_of(logarithms);
+    if (!centre) { return std::nullopt; }
     // The median of the repeats itself lies in it, also where one of them is far off.
     const double median_ms = report::median_of({medians_ms.begin(), medians_ms.end()});
-    return std::pair(std::min(std::exp(mean - half), median_ms), std::max(std::exp(mean + half), median_ms));
+    return std::pair(std::min(std::exp(centre->low), median_ms), std::max(std::exp(centre->high), median_ms));
 }
 
 std::vector<std::string> write_paper(
@@ -668,11 +657,11 @@ std::vector<std::string> write_paper(
     std::vector<SweepCell> cells = cells_of(sweep, results);
     std::vector<std::string> notes;
     for (SweepCell& cell : cells) {
-        std::vector<FrameTimes> repeats;
+        std::vector<CountedFrames> repeats;
         for (const std::size_t run : cell.runs) {
-            repeats.push_back(frame_times_of(folder.recording(sweep.runs[run].name)));
+            repeats.push_back(counted_frames_of(folder.recording(sweep.runs[run].name)));
         }
-        std::erase_if(repeats, [](const FrameTimes& repeat) { return repeat.frame_ms.empty(); });
+        std::erase_if(repeats, [](const CountedFrames& repeat) { return repeat.frame_ms.empty(); });
         if (repeats.empty()) { continue; }
         cell.figures = figures_of(repeats);
         cell.curve = curve_of(repeats);

@@ -12,8 +12,8 @@
 
 namespace octant::ui::sweep {
 
-/// The 95 % interval of the median frame time of a cell: Student's t on the logarithms of its repeats' medians, which
-/// are above 0. Nothing for fewer than three repeats.
+/// The 95 % interval of the median frame time of a cell, from the logarithms of its repeats' medians, which are above 0
+/// (report::centre_of). Nothing for fewer than three repeats.
 std::optional<std::pair<double, double>> median_interval(std::span<const double> medians_ms);
 
 /// A sweep for a paper, in the sweep folder's paper/:
