@@ -107,9 +107,9 @@ TEST_CASE("a sweep's archive flies everything again in another folder, with the 
     fs::copy_file(fs::path(OCTANT_SOURCE_DIR) / "flightpaths/f15-turn.toml", made / "mine.toml");
     fs::create_directories(made / "sweep");
     const std::string file = (made / "sweep/two.toml").string();
-    write_file(file,
-        "[settings]\nsize = \"64x48\"\nframes = 3\nterrain = \"background60\"\n[vary]\npath = [\"straight\", "
-        "\"../mine.toml\"]\n");
+    write_file(file, "[settings]\nsize = \"64x48\"\nframes = 3\nwarm-up = 0\nterrain = \"background60\"\n[vary]\npath "
+                     "= [\"straight\", "
+                     "\"../mine.toml\"]\n");
     const fs::path out = made / "out";
     const tests::ProgramRun flown = run_octant({"sweep", file, "--out", out.string(), "--paper"});
     INFO(flown.out << flown.err);
