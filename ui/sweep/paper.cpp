@@ -120,6 +120,7 @@ std::vector<SweepCell> cells_of(const Sweep& sweep, std::span<const RunResult> r
     std::vector<SweepCell> cells;
     std::map<std::string, std::size_t> known;
     std::map<std::string, std::size_t> flights;
+    std::map<std::string, int> numbers; ///< of cells by what is shown of them
     for (std::size_t i = 0; i < sweep.runs.size(); ++i) {
         const SweepRun& run = sweep.runs[i];
         std::string key = settings::settings_json(run.settings)
@@ -130,6 +131,9 @@ std::vector<SweepCell> cells_of(const Sweep& sweep, std::span<const RunResult> r
             cells.push_back({short_name(run.settings.path.name), aircraft_name(run.settings), {}, {}});
             std::ranges::copy_if(run.varied, std::back_inserter(cells.back().variant),
                 [](const auto& varied) { return varied.first != "path" && varied.first != "aircraft"; });
+            // Files of one name in different folders.
+            const int number = ++numbers[cells.back().flight() + "\n" + cells.back().variant_name()];
+            if (number > 1) { cells.back().path += fmt::format(" ({})", number); }
             flights.emplace(cells.back().flight(), flights.size());
         }
         if (results[i].done) { cells[found->second].runs.push_back(i); }
@@ -232,7 +236,7 @@ std::string note_of(std::span<const SweepCell> cells, const Sweep& sweep, std::s
     const auto noisy =
         std::ranges::count_if(results, [](const RunResult& run) { return run.done && !run.noise.empty(); });
     if (noisy > 0) {
-        note += fmt::format(" Other programs took part in the times of {} flights (column noise of sweep.csv).", noisy);
+        note += fmt::format(" The machine was not quiet during {} flights (column noise of sweep.csv).", noisy);
     }
     const std::size_t differences = hash_mismatches(sweep, results).size();
     if (differences > 0) {
