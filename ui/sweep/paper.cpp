@@ -3,7 +3,6 @@
 #include "flightpaths/toml_fields.h"
 #include "models/heights/map_inputs.h"
 #include "sim/base/error.h"
-#include "sim/base/nearest_rank.h"
 #include "sim/base/output_file.h"
 #include "sim/base/text_file.h"
 #include "ui/base/version.h"
@@ -283,16 +282,17 @@ std::string colour_of_variant(const std::vector<std::string>& variants, const Sw
     return colours[index % colours.size()];
 }
 
-/// Frame times of cells of one flight. A few frames that took much longer than all others leave the figure at the top.
+/// Frame times of cells of one flight. Bands leave the figure at 2.5 times its highest curve, so that single long
+/// frames do not flatten the curves.
 Plot flight_plot(std::span<const SweepCell* const> cells, const std::vector<std::string>& variants) {
     Plot plot{"Frame time of " + cells.front()->flight(), "simulated time, s", "frame time, ms"};
     plot.marks = cells.front()->legs;
-    double ceiling_ms = 0.0;
+    double highest_curve_ms = 0.0;
+    double highest_band_ms = 0.0;
     for (const SweepCell* const cell : cells) {
         const CellCurve& curve = cell->curve;
-        std::vector<double> highest = curve.high_ms;
-        const double p99_ms = nearest_rank(highest, 990);
-        ceiling_ms = std::max(ceiling_ms, std::min(std::ranges::max(highest), 1.5 * p99_ms));
+        highest_curve_ms = std::max(highest_curve_ms, std::ranges::max(curve.median_ms));
+        highest_band_ms = std::max(highest_band_ms, std::ranges::max(curve.high_ms));
         plot.series.push_back({"", colour_of_variant(variants, *cell), PlotSeries::Style::Area, curve.time_s,
             curve.high_ms, curve.low_ms});
     }
@@ -301,7 +301,7 @@ Plot flight_plot(std::span<const SweepCell* const> cells, const std::vector<std:
             cell->curve.time_s, cell->curve.median_ms});
     }
     plot.y_min = 0.0;
-    plot.y_max = 1.05 * ceiling_ms;
+    plot.y_max = 1.05 * std::min(highest_band_ms, 2.5 * highest_curve_ms);
     return plot;
 }
 

@@ -19,8 +19,8 @@ std::optional<std::pair<double, double>> median_interval(std::span<const double>
 /// A sweep for a paper, in the sweep folder's paper/:
 ///   table.tex, table.csv, table.md    a row for each cell: every combination of path, aircraft and what else is varied
 ///   flight-PATH-AIRCRAFT.svg, .pdf    frame time over simulated time, a curve for each variant: the median of its
-///                                     repeats with a band from the lowest to the highest, which leaves the figure at
-///                                     1.5 times its own P99
+///                                     repeats with a band from the lowest to the highest, cut at 2.5 times the
+///                                     highest curve
 ///   cells.svg, cells.pdf              the medians of all cells with their intervals
 ///   NAME.zip                          the sweep with its input files and results, to be flown again elsewhere
 /// `sweep_file` is the file that the sweep was read from. Only flights that are done are counted; writes nothing if
