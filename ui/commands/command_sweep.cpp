@@ -9,6 +9,7 @@
 #include "ui/report/loaded_recording.h"
 #include "ui/report/video_pipe.h"
 #include "ui/sweep/engine.h"
+#include "ui/sweep/paper.h"
 #include "ui/sweep/split_flight.h"
 #include "ui/sweep/sweep_file.h"
 #include "ui/sweep/sweep_folder.h"
@@ -46,6 +47,7 @@ struct SweepOptions : base::OutputOptions {
     std::optional<int> minutes;
     int retries = 1;
     bool list = false;
+    bool paper = false;
 };
 
 /// What came of a sweep's runs, and how they shared machines.
@@ -298,6 +300,11 @@ void run_sweep(const SweepOptions& options) {
     for (std::size_t i = 0; i < order.size(); ++i) { results[order[i]] = flown.results[i]; }
     const std::vector<std::string> hash_mismatches = sweep::hash_mismatches(sweep, results);
     write_results(sweep, folder, results, hash_mismatches);
+    if (options.paper) {
+        for (const std::string& note : sweep::write_paper(options.file, sweep, folder, results)) {
+            base::print_note(options.quiet, note);
+        }
+    }
     print_end(sweep, results, hash_mismatches, flown.machine_sharing, options.json);
     base::print_note(options.quiet, fmt::format("results: {0}/sweep.csv, {0}/report.html", folder.path().string()));
     if (!hash_mismatches.empty() || !unfinished_runs(results).empty()) { throw CheckFailed(); }
@@ -317,6 +324,10 @@ std::vector<Option> options_of(SweepOptions& options) {
             value_option({"split", "N", "render each flight in N parts of consecutive frames and join them", 2, 10000},
                 options.split),
             flag("--video", "write a video of each flight to videos/NAME.mp4", options.engine.videos),
+            flag("--paper",
+                "write tables (LaTeX, CSV, Markdown), figures (SVG, PDF) and an archive that flies everything again to "
+                "paper/",
+                options.paper),
             list_option("--sbatch", "OPTION",
                 "further option for sbatch, such as --sbatch=--partition=long; repeatable", Arity::Repeatable,
                 options.engine.sbatch_options)});
@@ -359,6 +370,7 @@ Command sweep_command() {
                   "  octant sweep budgets.toml --on slurm --batch minutes=30 --sbatch=--partition=long\n"
                   "  octant sweep budgets.toml --on parallel --batch hosts=machines.txt\n"
                   "  octant sweep long.toml --split 4 --batch share-cores --video\n"
+                  "  octant sweep budgets.toml --out budgets --paper\n"
                   "Flights that are done are not flown again. All first repeats are flown before all second ones, in "
                   "an order shuffled by the sweep's name; results stand in the order of the file.\n"
                   "Exit code 1: a flight failed or has not begun, or flights with the same settings have different "

@@ -39,8 +39,49 @@ std::string head_html(const ResultTable& table) {
 
 std::string line_of_markdown(const std::vector<std::string>& fields) {
     std::string line = "|";
-    for (const std::string& field : fields) { line += fmt::format(" {} |", field); }
+    for (std::string field : fields) {
+        for (std::size_t at = 0; (at = field.find('|', at)) != std::string::npos; at += 2) {
+            field.insert(at, 1, '\\');
+        }
+        line += fmt::format(" {} |", field);
+    }
     return line + "\n";
+}
+
+/// Text that LaTeX prints as it is, in any encoding of its fonts.
+std::string latex_text(std::string_view text) {
+    constexpr std::string_view special = "\\{}#$%&_^~<>|\"`-";
+    constexpr std::array commands{"\\textbackslash{}", "\\{", "\\}", "\\#", "\\$", "\\%", "\\&", "\\_",
+        "\\textasciicircum{}", "\\textasciitilde{}", "\\textless{}", "\\textgreater{}", "\\textbar{}", "{''}",
+        "\\textasciigrave{}", "-{}"};
+    std::string latex;
+    for (const char letter : one_line(text)) {
+        const std::size_t at = special.find(letter);
+        latex += at == std::string_view::npos ? std::string(1, letter) : commands[at];
+    }
+    return latex;
+}
+
+/// A line of a LaTeX table; `text(i)` of each column.
+template <class Text>
+std::string latex_line(std::size_t columns, Text&& text) {
+    std::string line;
+    for (std::size_t i = 0; i < columns; ++i) { line += (i == 0 ? "" : " & ") + text(i); }
+    return line + " \\\\\n";
+}
+
+/// Names of columns, and their units below them where there are any.
+std::string latex_head(const std::vector<std::string>& names) {
+    constexpr std::string_view separator = ", ";
+    const auto comma = [&](std::size_t i) { return names[i].rfind(separator); };
+    std::string head = latex_line(
+        names.size(), [&](std::size_t i) { return latex_text(std::string_view(names[i]).substr(0, comma(i))); });
+    const auto unit = [&](std::size_t i) {
+        return comma(i) == std::string::npos ? std::string() : latex_text(names[i].substr(comma(i) + separator.size()));
+    };
+    const bool has_units =
+        std::ranges::any_of(names, [&](const std::string& name) { return name.rfind(separator) != std::string::npos; });
+    return has_units ? head + latex_line(names.size(), unit) : head;
 }
 
 std::vector<std::string> texts_of(const std::vector<Cell>& row) {
@@ -99,6 +140,31 @@ std::string markdown_of(std::span<const ResultTable> tables) {
         text += "\n" + table.note + "\n";
     }
     return text;
+}
+
+std::string latex_of(const ResultTable& table) {
+    constexpr std::size_t rows_on_page = 45;
+    std::string alignment;
+    for (std::size_t i = 0; i < table.header.size(); ++i) {
+        const bool is_right = std::ranges::all_of(
+            table.rows, [&](const std::vector<Cell>& row) { return row[i].text.empty() || is_number(row[i]); });
+        alignment += is_right ? "r" : "l";
+    }
+    std::string text = "{\\footnotesize\\setlength{\\tabcolsep}{3pt}\\noindent\n";
+    for (std::size_t begin = 0; begin < table.rows.size(); begin += rows_on_page) {
+        text += fmt::format("{}\\begin{{tabular}}{{@{{}}{}@{{}}}}\n\\toprule\n{}\\midrule\n",
+            begin > 0 ? "\n\\medskip\\noindent\n" : "", alignment, latex_head(table.header));
+        for (std::size_t r = begin; r < std::min(table.rows.size(), begin + rows_on_page); ++r) {
+            const std::vector<Cell>& row = table.rows[r];
+            text += latex_line(row.size(), [&](std::size_t i) {
+                const bool is_negative = is_number(row[i]) && row[i].text.starts_with('-');
+                return is_negative ? "$" + row[i].text + "$" : latex_text(row[i].text);
+            });
+        }
+        text += "\\bottomrule\n\\end{tabular}\n";
+    }
+    if (!table.note.empty()) { text += "\n\\smallskip\\noindent\n" + latex_text(table.note) + "\n"; }
+    return text + "\\par}\n";
 }
 
 std::string json_of(std::span<const ResultTable> tables) {

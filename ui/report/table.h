@@ -33,7 +33,7 @@ struct Cell {
         : column(std::move(name)), text(fmt::format(format, first, more...)) {}
 };
 
-/// A table of results for pages, CSV, Markdown, JSON and the terminal.
+/// A table of results for pages, CSV, Markdown, LaTeX, JSON and the terminal.
 struct ResultTable {
     std::string title = {};
     std::vector<std::string> header = {}; ///< names of the columns; the first row sets them
@@ -53,6 +53,11 @@ std::string csv_of(const ResultTable& table);
 
 /// Tables as Markdown, separated by blank lines: title, table, note.
 std::string markdown_of(std::span<const ResultTable> tables);
+
+/// A table as LaTeX with the rules of the package booktabs: names of columns with their units (what follows the last
+/// comma) in a line of their own, numbers aligned right, note below. Continues in a further tabular after 45 rows, as
+/// many as a page takes. Letters beyond ASCII stay UTF-8.
+std::string latex_of(const ResultTable& table);
 
 /// Tables as JSON: a list of objects with "title", "rows" (an object a row, by column) and "note".
 std::string json_of(std::span<const ResultTable> tables);

@@ -155,21 +155,6 @@ constexpr const char* inputs_folder = "inputs";
 
 std::string absolute(const std::string& file) { return absolute_path(file).string(); }
 
-std::string hash_of_file(const fs::path& file) {
-    if (visuals::groundfile::is_ground_file(file)) {
-        return fmt::format("{:016x}", visuals::groundfile::hash_of_ground(file));
-    }
-    std::ifstream in(file, std::ios::binary);
-    if (!in || is_folder(file)) { throw_error_in(file, "expected a file that can be read, got none"); }
-    Hash hash;
-    std::vector<char> piece(std::size_t{1} << 20);
-    while (in) {
-        in.read(piece.data(), static_cast<std::streamsize>(piece.size()));
-        hash.add(std::as_bytes(std::span(piece.data(), static_cast<std::size_t>(in.gcount()))));
-    }
-    return fmt::format("{:016x}", hash.value());
-}
-
 bool is_live(const settings::RunSettings& settings) { return settings.path.name == settings::live_path; }
 
 bool is_folder_or_pattern(const std::string& name) {
@@ -190,24 +175,6 @@ std::vector<fs::path> relative_paths_below(const fs::path& model, const std::vec
     }
     return paths;
 }
-
-/// Where a recording has a file that its run reads.
-enum class FileLocation {
-    /// A copy lies in the recording.
-    Copied,
-    /// The file lies in the program's own folder.
-    BuiltIn,
-    /// The file is too large to copy: a terrain, which is known by its hash.
-    External
-};
-
-/// A file that a run reads.
-struct InputFile {
-    std::filesystem::path file;
-    /// "inputs/my.obj" in the recording, "models/f15.obj" in the program's own folder, or the file's own name.
-    std::string name;
-    FileLocation location = FileLocation::Copied;
-};
 
 /// Files in the order in which they are found, each once, with names that differ.
 struct Collector {
@@ -273,6 +240,21 @@ bool names_system_file(const settings::RunSettings& settings) {
 
 } // namespace
 
+std::string hash_of_file(const fs::path& file) {
+    if (visuals::groundfile::is_ground_file(file)) {
+        return fmt::format("{:016x}", visuals::groundfile::hash_of_ground(file));
+    }
+    std::ifstream in(file, std::ios::binary);
+    if (!in || is_folder(file)) { throw_error_in(file, "expected a file that can be read, got none"); }
+    Hash hash;
+    std::vector<char> piece(std::size_t{1} << 20);
+    while (in) {
+        in.read(piece.data(), static_cast<std::streamsize>(piece.size()));
+        hash.add(std::as_bytes(std::span(piece.data(), static_cast<std::size_t>(in.gcount()))));
+    }
+    return fmt::format("{:016x}", hash.value());
+}
+
 std::vector<fs::path> ground_files(const std::string& terrain) {
     if (settings::is_built_in_ground(terrain)) { return {}; }
     if (settings::is_imported_ground(terrain)) { return {terrain}; }
@@ -307,37 +289,48 @@ settings::RunSettings with_absolute_paths(settings::RunSettings settings) {
     return settings;
 }
 
-namespace {
-
-/// The files that a run reads, painting orders apart: path, aircraft with their materials, terrain and what lies on it.
-/// Throws Error for files that are missing.
-std::vector<InputFile> input_files(const settings::RunSettings& settings) {
+std::vector<InputFile> input_files(std::span<const settings::RunSettings> runs) {
     Collector found;
-    if (!is_live(settings)) {
-        const std::string pilot = settings::aircraft_shape(settings.path.aircraft.front());
-        found.add(base::path_file(settings.path.name, pilot));
+    for (const settings::RunSettings& settings : runs) {
+        if (!is_live(settings)) {
+            const std::string pilot = settings::aircraft_shape(settings.path.aircraft.front());
+            found.add(base::path_file(settings.path.name, pilot));
+        }
+        for (const std::string& name : settings.path.aircraft) {
+            const settings::AircraftEntry flown = settings::parse_aircraft_entry(name);
+            found.add_model(base::aircraft_file(flown.shape));
+            if (flown.path) { found.add(base::path_file(*flown.path, flown.shape)); }
+        }
+        for (const fs::path& file : ground_files(settings.path.terrain)) { found.add_external(file); }
+        if (names_system_file(settings)) { found.add(*settings.path.terrain_system); }
+        if (settings.air.drape) { found.add_external(*settings.air.drape); }
     }
-    for (const std::string& name : settings.path.aircraft) {
-        const settings::AircraftEntry flown = settings::parse_aircraft_entry(name);
-        found.add_model(base::aircraft_file(flown.shape));
-        if (flown.path) { found.add(base::path_file(*flown.path, flown.shape)); }
-    }
-    for (const fs::path& file : ground_files(settings.path.terrain)) { found.add_external(file); }
-    if (names_system_file(settings)) { found.add(*settings.path.terrain_system); }
-    if (settings.air.drape) { found.add_external(*settings.air.drape); }
     return std::move(found.files);
 }
 
-} // namespace
+void rename_inputs(settings::RunSettings& settings, const std::function<void(std::string&)>& rename) {
+    rename(settings.path.name);
+    for (std::string& name : settings.path.aircraft) {
+        settings::AircraftEntry flown = settings::parse_aircraft_entry(name);
+        rename(flown.shape);
+        if (flown.path) { rename(*flown.path); }
+        name = settings::text_of(flown);
+    }
+    rename(settings.path.terrain);
+    if (names_system_file(settings)) { rename(*settings.path.terrain_system); }
+    if (settings.air.drape) { rename(*settings.air.drape); }
+}
 
 std::vector<std::pair<std::string, std::string>> input_hashes(const settings::RunSettings& settings) {
     std::vector<std::pair<std::string, std::string>> hashes;
-    for (const InputFile& input : input_files(settings)) { hashes.emplace_back(input.name, hash_of_file(input.file)); }
+    for (const InputFile& input : input_files(std::span(&settings, 1))) {
+        hashes.emplace_back(input.name, hash_of_file(input.file));
+    }
     return hashes;
 }
 
 settings::RunSettings settings_in_recording(const settings::RunSettings& settings, const fs::path& folder) {
-    const std::vector<InputFile> inputs = input_files(settings);
+    const std::vector<InputFile> inputs = input_files(std::span(&settings, 1));
     const fs::path from = fs::absolute(folder).lexically_normal();
     for (const InputFile& input : inputs) {
         const fs::path way = absolute_path(input.file).lexically_relative(from / inputs_folder);
@@ -357,16 +350,7 @@ settings::RunSettings settings_in_recording(const settings::RunSettings& setting
         }
     };
     settings::RunSettings renamed = settings;
-    rename(renamed.path.name);
-    for (std::string& name : renamed.path.aircraft) {
-        settings::AircraftEntry flown = settings::parse_aircraft_entry(name);
-        rename(flown.shape);
-        if (flown.path) { rename(*flown.path); }
-        name = settings::text_of(flown);
-    }
-    rename(renamed.path.terrain);
-    if (names_system_file(settings)) { rename(*renamed.path.terrain_system); }
-    if (renamed.air.drape) { rename(*renamed.air.drape); }
+    rename_inputs(renamed, rename);
     if (settings::is_order_cache_folder(renamed.surface.order_cache)) {
         renamed.surface.order_cache = (fs::path(inputs_folder) / "orders").string();
     }
@@ -377,7 +361,7 @@ std::vector<std::pair<std::string, std::string>> files_to_copy(
     const settings::RunSettings& settings, const std::vector<fs::path>& order_files) {
     constexpr std::size_t largest_bytes = std::size_t{1} << 30;
     std::vector<std::pair<std::string, std::string>> copied;
-    for (const InputFile& input : input_files(settings)) {
+    for (const InputFile& input : input_files(std::span(&settings, 1))) {
         if (input.location == FileLocation::Copied) {
             copied.emplace_back(input.name, read_file(input.file, largest_bytes));
         }

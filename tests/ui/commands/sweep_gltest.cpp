@@ -3,6 +3,7 @@
 #include "tests/scratch.h"
 #include "tests/ui/commands/command_checks.h"
 #include "tests/ui/commands/command_line.h"
+#include "ui/report/zip_file.h"
 
 #include <catch2/catch.hpp>
 
@@ -220,4 +221,34 @@ TEST_CASE("flights that a scheduler never began are told as such") {
     CHECK_THAT(read_file(made / "out/report.html"), Contains("<td>2 flights</td>"));
     make_program(made / "bin", "sbatch", working_sbatch);
     CHECK(run_octant(line).exit_code == 0);
+}
+
+TEST_CASE("a sweep's archive flies everything again in another folder, with the same hashes") {
+    const auto made = tests::empty_folder("sweep-paper");
+    fs::copy_file(fs::path(OCTANT_SOURCE_DIR) / "flightpaths/f15-turn.toml", made / "mine.toml");
+    fs::create_directories(made / "sweep");
+    const std::string file = (made / "sweep/two.toml").string();
+    write_file(file, "[settings]\nsize = \"64x48\"\nframes = 3\nwarm-up = 0\nterrain = \"background60\"\n[vary]\npath "
+                     "= [\"straight\", "
+                     "\"../mine.toml\"]\n");
+    const fs::path out = made / "out";
+    const tests::ProgramRun flown = run_octant({"sweep", file, "--out", out.string(), "--paper"});
+    INFO(flown.out << flown.err);
+    REQUIRE(flown.exit_code == 0);
+    const fs::path again = made / "again";
+    fs::create_directories(again);
+    fs::remove(made / "mine.toml");
+    for (const auto& entry : ui::report::zip_entries(out / "paper/two.zip")) {
+        fs::create_directories((again / entry.name).parent_path());
+        ui::report::extract(out / "paper/two.zip", entry.name, again / entry.name);
+    }
+    REQUIRE(run_octant({"sweep", (again / "two.toml").string(), "--out", (again / "again").string(), "--quiet"})
+                .exit_code == 0);
+    for (const char* run : {"straight", "mine"}) {
+        const auto hashes = [&](const fs::path& folder) {
+            const std::string text = read_file(folder / "runs" / run / "run.json");
+            return text.substr(text.find("\"state_hash\""), 80);
+        };
+        CHECK(hashes(out) == hashes(again / "again"));
+    }
 }

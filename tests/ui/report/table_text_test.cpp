@@ -35,12 +35,29 @@ TEST_CASE("a table is written as CSV, Markdown, JSON and text") {
     ResultTable table{.title = "Speed", .note = "measured"};
     table.add({{"name", "a"}, {"ms, median", "{:.1f}", 1.5}});
     table.add({{"name", "b, \"c\""}, {"ms, median", ""}});
+    CHECK_THAT(markdown_of(std::vector<ResultTable>{{.title = "a", .header = {"x|y"}}}), Contains("| x\\|y |"));
     CHECK(csv_of(table) == "name,\"ms, median\"\na,1.5\n\"b, \"\"c\"\"\",\n");
     CHECK(markdown_of(std::span(&table, 1)) ==
           "# Speed\n\n| name | ms, median |\n| --- | --- |\n| a | 1.5 |\n| b, \"c\" |  |\n\nmeasured\n");
     const std::string json = json_of(std::span<const ResultTable>(&table, 1));
     CHECK_THAT(json, Contains("\"ms, median\": 1.5") && Contains(R"("name": "b, \"c\"")"));
     CHECK(text_of(table) == "name    ms, median\na       1.5\nb, \"c\"  \n");
+}
+
+TEST_CASE("a table is LaTeX with its units in a line of their own, and nothing special left as it is") {
+    ResultTable table{.note = "95 % of #1"};
+    table.add({{"name", "a_b{c}\\d"}, {"median, ms", "{:.1f}", -1.5}, {"n", ""}});
+    table.add({{"name", "--<x>|\"~^$&"}, {"median, ms", "2.0"}, {"n", 3}});
+    CHECK(latex_of(table) ==
+          "{\\footnotesize\\setlength{\\tabcolsep}{3pt}\\noindent\n"
+          "\\begin{tabular}{@{}lrr@{}}\n\\toprule\nname & median & n \\\\\n & ms &  \\\\\n\\midrule\n"
+          "a\\_b\\{c\\}\\textbackslash{}d & $-1.5$ &  \\\\\n"
+          "-{}-{}\\textless{}x\\textgreater{}\\textbar{}{''}\\textasciitilde{}\\textasciicircum{}\\$\\& & 2.0 & "
+          "3 \\\\\n\\bottomrule\n\\end{tabular}\n\n\\smallskip\\noindent\n95 \\% of \\#1\n\\par}\n");
+    ResultTable long_table;
+    for (int i = 0; i < 46; ++i) { long_table.add({{"i", i}}); }
+    const std::string latex = latex_of(long_table);
+    CHECK(latex.find("\\begin{tabular}", latex.find("44 \\")) < latex.find("45 \\"));
 }
 
 TEST_CASE("a row is written as CSV, JSON, cells and schema from one list of columns") {
