@@ -57,7 +57,7 @@ struct FlownSweep {
             const SweepRun& run = sweep.runs[i];
             record(
                 folder.recording(run.name), frames, 9.0 + run.repeat + (run.settings.view.fov_deg == 50.0 ? 3.0 : 0.0));
-            results.push_back({sweep.runs[i].name, true, "", "here", "1", "2", ""});
+            results.push_back({sweep.runs[i].name, RunState::Flown, "", "here", "1", "2", ""});
         }
         write_file(folder.path() / "sweep.csv", "run\n");
     }
@@ -121,7 +121,7 @@ TEST_CASE("a paper's table has the medians over repeats of each cell") {
 TEST_CASE("what a sweep is too short for is left out of its table, with the reason") {
     FlownSweep flown("paper-short", "repeats = 2\n[vary]\nfov = [40, 50]\n", 99);
     for (std::size_t i = 0; i < flown.results.size(); ++i) {
-        flown.results[i].done = flown.sweep.runs[i].settings.view.fov_deg != 50.0;
+        flown.results[i].state = flown.sweep.runs[i].settings.view.fov_deg != 50.0 ? RunState::Flown : RunState::Failed;
     }
     flown.write();
     const std::string table = read_file(flown.paper("table.md"));
@@ -129,7 +129,7 @@ TEST_CASE("what a sweep is too short for is left out of its table, with the reas
     CHECK_THAT(table, Contains("| 40 | 2 | 99 |") && !Contains("| 50 |"));
     CHECK_THAT(table, Contains("A cell with fewer than 3 repeats has no interval") &&
                           Contains("Only 2 of 4 flights are done") && Contains("none of their flights is done: 1."));
-    for (RunResult& result : flown.results) { result.done = false; }
+    for (RunResult& result : flown.results) { result.state = RunState::Failed; }
     const auto notes = flown.write();
     REQUIRE(notes.size() == 1);
     CHECK_THAT(notes.front(), Contains("--paper writes nothing"));
@@ -149,7 +149,7 @@ TEST_CASE("a paper's archive has the files that the sweep names, wherever they l
     fs::copy_file(source + "/flightpaths/f15-turn.toml", flown.file.parent_path() / "near.toml");
     write_file(flown.file, text);
     const Sweep sweep = read_sweep(flown.file);
-    const RunResult done{flown.sweep.runs[0].name, true, "", "here", "1", "2", ""};
+    const RunResult done{flown.sweep.runs[0].name, RunState::Flown, "", "here", "1", "2", ""};
     Sweep three = sweep;
     three.runs[0].name = flown.sweep.runs[0].name;
     write_paper(flown.file, three, flown.folder, std::vector{done, RunResult{}, RunResult{}});
