@@ -3,6 +3,7 @@
 #include "sim/base/error.h"
 #include "sim/base/output_file.h"
 #include "sim/base/text_file.h"
+#include "ui/base/stop_signals.h"
 #include "ui/flight/flight_recorder.h"
 #include "ui/report/run_file.h"
 #include "ui/report/statistics.h"
@@ -114,8 +115,9 @@ namespace {
 void set_fault(const SweepFolder& folder, bool is_recorded, RunResult& result) {
     if (!path_exists(folder.log(result.name))) { return; }
     const std::string last = last_log_line(folder.log(result.name));
-    const std::string stopped =
+    std::string stopped =
         is_recorded ? report::read_run_file(folder.recording(result.name) / "run.json").stopped : std::string();
+    if (stopped.empty() && last.empty()) { stopped = base::StopSignals::name(); } // killed while it loaded its world
     // An error comes after a run.json that an earlier call left.
     const bool is_stopped = !stopped.empty() && !last.starts_with("octant: ");
     result.state = is_stopped ? RunState::Stopped : RunState::Failed;
