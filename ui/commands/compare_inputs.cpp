@@ -3,6 +3,7 @@
 #include "sim/base/error.h"
 #include "sim/base/output_file.h"
 #include "sim/base/text_file.h"
+#include "ui/report/frame_capture.h"
 #include "ui/report/run_file.h"
 #include "ui/settings/setting_rows.h"
 #include "ui/settings/settings_check.h"
@@ -24,8 +25,19 @@ namespace {
 namespace fs = std::filesystem;
 using Indices = std::vector<std::size_t>;
 
+/// Whether a file holds frame times that another program recorded.
+bool holds_capture(const fs::path& file) {
+    try {
+        report::read_frame_capture(file);
+        return true;
+    } catch (const Error&) { return false; }
+}
+
 bool is_recording(const fs::path& path) {
-    return report::is_run_file(path / "run.json") || (extension_of(path) == ".zip" && is_file(path));
+    const std::string ending = extension_of(path);
+    const bool may_be_capture = ending == ".csv" || ending == ".json";
+    return is_folder(path) ? report::is_run_file(path / "run.json")
+                           : is_file(path) && (ending == ".zip" || (may_be_capture && holds_capture(path)));
 }
 
 /// The recordings in a folder, in the order of their names.

@@ -18,8 +18,8 @@ enum class ComparedKind { Programs, Settings, Recordings };
 /// The kind of both sides, told by the files themselves. Throws Error where they are of two kinds, or of none.
 ComparedKind compared_kind(const std::array<std::filesystem::path, 2>& sides);
 
-/// Recordings of a side: the folder or the packed file itself, else those in a folder or in its runs/, in the order of
-/// their names. Throws Error where there is none.
+/// Recordings of a side: the folder or the file itself (packed, or recorded by another program: frame_capture.h), else
+/// those in a folder or in its runs/, in the order of their names. Throws Error where there is none.
 std::vector<report::LoadedRecording> load_side(const std::filesystem::path& side);
 
 /// One flight of both sides, with the indices of its recordings.
