@@ -135,7 +135,7 @@ std::vector<SweepCell> cells_of(const Sweep& sweep, std::span<const RunResult> r
             if (number > 1) { cells.back().path += fmt::format(" ({})", number); }
             flights.emplace(cells.back().flight(), flights.size());
         }
-        if (results[i].done) { cells[found->second].runs.push_back(i); }
+        if (results[i].done()) { cells[found->second].runs.push_back(i); }
     }
     std::ranges::stable_sort(cells, {}, [&](const SweepCell& cell) { return flights.at(cell.flight()); });
     return cells;
@@ -233,7 +233,7 @@ std::string note_of(std::span<const SweepCell> cells, const Sweep& sweep, std::s
         note += fmt::format(" Only {} of {} flights are done; the table shows those.", done, results.size());
     }
     const auto noisy =
-        std::ranges::count_if(results, [](const RunResult& run) { return run.done && !run.noise.empty(); });
+        std::ranges::count_if(results, [](const RunResult& run) { return run.done() && !run.noise.empty(); });
     if (noisy > 0) {
         note += fmt::format(" The machine was not quiet during {} flights (column noise of sweep.csv).", noisy);
     }
@@ -597,7 +597,7 @@ report::ResultTable machines_of(const SweepFolder& folder, std::span<const RunRe
     report::ResultTable table;
     std::set<std::string> hosts;
     for (const RunResult& result : results) {
-        if (!result.done || !hosts.insert(result.host).second) { continue; }
+        if (!result.done() || !hosts.insert(result.host).second) { continue; }
         for (const auto& [name, value] : report::read_run_file(folder.recording(result.name) / "run.json").machine) {
             table.add({{"machine", result.host}, {"entry", name}, {"value", value}});
         }
