@@ -50,8 +50,13 @@ struct Option {
     std::function<std::string(const Words&)> note = {};
 };
 
-/// Thrown when a check fails after the command has printed its results: exit code 1, no message.
-struct CheckFailed {};
+/// Exit code of a comparison that cannot tell.
+inline constexpr int exit_cannot_tell = 3;
+
+/// Thrown when a check fails after the command has printed its results: no message.
+struct CheckFailed {
+    int exit_code = 1;
+};
 
 /// One command of a program. `run` and the options share what the options read into.
 struct Command {

@@ -534,7 +534,7 @@ int run_command(const Program& program, int argument_count, const char* const* a
     try {
         // Errors are named inside, because aliases of unpacked recordings end with their owners.
         base::with_named_errors([&] { parse_command_line(program, argument_count, arguments)(); });
-    } catch (const CheckFailed&) { code = exit_check_failed; } catch (const base::StoppedBySignal&) {
+    } catch (const CheckFailed& check) { code = check.exit_code; } catch (const base::StoppedBySignal&) {
         return code; // exit_by_received_signal() ends the program by the signal
     }
     // Damaged tiles of ground files were drawn without detail: the pictures are not those that were asked for.

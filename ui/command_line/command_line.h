@@ -15,7 +15,7 @@ std::function<void()> parse_command_line(const Program& program, int argument_co
 [[noreturn]] void replace_by_program(Words words);
 
 /// The body of main() of the program `name`, whose commands `make_program` returns: does what the command line asks for
-/// and returns the exit code. 0: success. 1: a check failed. 2: invalid input or environment; the error is one line on
+/// and returns the exit code. 0: success. 1: a check failed. 3: a comparison cannot tell. 2: invalid input or environment; the error is one line on
 /// stderr. A received stop signal ends the process instead.
 int run_program(const char* name, Program (*make_program)(), int argument_count, const char* const* arguments);
 

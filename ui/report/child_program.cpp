@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 #include <spawn.h>
 #include <sys/mman.h>
+#include <sys/prctl.h>
 #include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -52,14 +53,18 @@ std::string exit_text(int status) {
     return fmt::format("ended with exit code {}", WEXITSTATUS(status));
 }
 
-/// Spawns with standard input, output and error set. Returns errno's value, 0 = running.
-int spawn(pid_t& process, const std::vector<std::string>& words, const std::array<int, 3>& streams) {
+/// For exec and spawn, which do not write to them.
+std::vector<char*> pointers_to(const std::vector<std::string>& words) {
     std::vector<char*> arguments;
     arguments.reserve(words.size() + 1);
-    for (const std::string& word : words) {
-        arguments.push_back(const_cast<char*>(word.c_str())); // spawn does not write to them
-    }
+    for (const std::string& word : words) { arguments.push_back(const_cast<char*>(word.c_str())); }
     arguments.push_back(nullptr);
+    return arguments;
+}
+
+/// Spawns with standard input, output and error set. Returns errno's value, 0 = running.
+int spawn(pid_t& process, const std::vector<std::string>& words, const std::array<int, 3>& streams) {
+    const std::vector<char*> arguments = pointers_to(words);
     posix_spawn_file_actions_t actions{};
     posix_spawn_file_actions_init(&actions);
     for (int i = 0; i < 3; ++i) { posix_spawn_file_actions_adddup2(&actions, streams[static_cast<std::size_t>(i)], i); }
@@ -73,10 +78,45 @@ int spawn(pid_t& process, const std::vector<std::string>& words, const std::arra
     return code;
 }
 
+/// As spawn(), but the program asks the system for SIGKILL when the thread that started it ends, which spawn cannot.
+int fork_bound(pid_t& process, const std::vector<std::string>& words, const std::array<int, 3>& streams) {
+    const std::vector<char*> arguments = pointers_to(words);
+    const pid_t parent = ::getpid();
+    std::array<int, 2> failure{-1, -1}; // its end says that the program runs
+    if (::pipe2(failure.data(), O_CLOEXEC) != 0) { return errno; }
+    process = ::fork();
+    if (process == 0) {
+        ::setpgid(0, 0);
+        ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+        if (::getppid() != parent) { ::_exit(1); }
+        for (int i = 0; i < 3; ++i) { ::dup2(streams[static_cast<std::size_t>(i)], i); }
+        ::execvp(arguments[0], arguments.data());
+        const int code = errno;
+        const ssize_t told = ::write(failure[1], &code, sizeof code);
+        ::_exit(told > 0 ? 1 : 2);
+    }
+    int code = process < 0 ? errno : 0;
+    ::close(failure[1]);
+    while (process > 0 && ::read(failure[0], &code, sizeof code) < 0 && errno == EINTR) {}
+    ::close(failure[0]);
+    if (process > 0 && code != 0) { ::waitpid(process, nullptr, 0); }
+    return code;
+}
+
 } // namespace
 
 std::optional<ChildProgram> ChildProgram::start(
     const std::vector<std::string>& words, const std::filesystem::path& log) {
+    return start_by(spawn, words, log);
+}
+
+std::optional<ChildProgram> ChildProgram::start_bound(
+    const std::vector<std::string>& words, const std::filesystem::path& log) {
+    return start_by(fork_bound, words, log);
+}
+
+std::optional<ChildProgram> ChildProgram::start_by(
+    Starter starter, const std::vector<std::string>& words, const std::filesystem::path& log) {
     assert(!words.empty());
     ChildProgram child;
     // A socket rather than a pipe: send() can be told not to raise SIGPIPE.
@@ -94,7 +134,7 @@ std::optional<ChildProgram> ChildProgram::start(
         log.empty() ? ::memfd_create("complaints", MFD_CLOEXEC) : ::fcntl(child.output_, F_DUPFD_CLOEXEC, 0);
     const int code = child.output_ < 0 || child.error_pipe_ < 0
                          ? errno
-                         : spawn(child.process_, words, {ends[1], child.output_, child.error_pipe_});
+                         : starter(child.process_, words, {ends[1], child.output_, child.error_pipe_});
     ::close(ends[1]);
     if (code == 0) { return child; }
     child.process_ = -1;
@@ -151,6 +191,10 @@ bool ChildProgram::is_running() {
 
 void ChildProgram::signal(int number) {
     if (is_running()) { ::kill(process_, number); }
+}
+
+void ChildProgram::signal_group(int number) {
+    if (is_running()) { ::kill(-process_, number); }
 }
 
 std::string ChildProgram::output() const { return all_of(output_); }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -26,6 +27,11 @@ public:
     static std::optional<ChildProgram> start(
         const std::vector<std::string>& words, const std::filesystem::path& log = {});
 
+    /// As start(), but the system kills the program when the calling thread ends, by SIGKILL too: for programs that are
+    /// stopped by signals, which could not see the end of their input.
+    static std::optional<ChildProgram> start_bound(
+        const std::vector<std::string>& words, const std::filesystem::path& log);
+
     /// Ends the input and waits.
     ~ChildProgram();
     ChildProgram(ChildProgram&& other) noexcept;
@@ -46,6 +52,9 @@ public:
     /// Sends it a signal, where it has not ended yet.
     void signal(int number);
 
+    /// Sends a signal to all processes of its group, those that it started too, where it has not ended yet.
+    void signal_group(int number);
+
     /// What it has written to its standard output so far.
     std::string output() const;
 
@@ -53,7 +62,12 @@ public:
     ProgramResult finish();
 
 private:
+    /// Starts a program; gives errno's value, 0 = running.
+    using Starter = int (*)(pid_t& process, const std::vector<std::string>& words, const std::array<int, 3>& streams);
+
     ChildProgram() = default;
+    static std::optional<ChildProgram> start_by(
+        Starter starter, const std::vector<std::string>& words, const std::filesystem::path& log);
     int wait();
 
     pid_t process_ = -1;

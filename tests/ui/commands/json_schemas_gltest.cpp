@@ -5,6 +5,7 @@
 #include "tests/ui/commands/json_schema.h"
 #include "tests/ui/flight/small_ground.h"
 #include "ui/commands/commands.h"
+#include "ui/report/comparison.h"
 #include "ui/report/frame_csv.h"
 #include "ui/report/statistics.h"
 #include "ui/report/table.h"
@@ -123,6 +124,7 @@ TEST_CASE("schemas of rows say what the columns in the program say") {
     tests::check_row_schema(schema("run"), "/properties/summary", statistics);
     tests::check_row_schema(
         schema("bench"), "/properties/scenes/items", schema_of(ui::studies::program::bench_columns()));
+    tests::check_row_schema(schema("compare"), "/properties/flights/items", schema_of(ui::report::change_columns()));
     tests::check_row_schema(schema("sweep"), "/properties/runs/items", schema_of(ui::sweep::result_columns()));
     tests::check_row_schema(
         schema("terrain-query"), "/properties/points/items", schema_of(ui::terrain::query_columns()));
@@ -134,8 +136,8 @@ TEST_CASE("every command has --json but manual, which prints a page and completi
 
 TEST_CASE("every command that prints JSON has a schema, and all tables have one form") {
     const std::map<std::string, std::string> schemas = {{"fly", "fly"}, {"listen", "fly"}, {"report", "report"},
-        {"pack", "pack"}, {"sweep", "sweep"}, {"draw-order", "draw-order"}, {"simplify", "simplify"},
-        {"mesh-error", "mesh-error"}, {"refine", "refine"}, {"model info", "model-info"},
+        {"compare", "compare"}, {"pack", "pack"}, {"sweep", "sweep"}, {"draw-order", "draw-order"},
+        {"simplify", "simplify"}, {"mesh-error", "mesh-error"}, {"refine", "refine"}, {"model info", "model-info"},
         {"terrain info", "terrain-info"}, {"terrain make", "terrain-make"}, {"terrain import", "terrain-import"},
         {"terrain mesh", "terrain-mesh"}, {"terrain query", "terrain-query"}, {"terrain check", "terrain-check"},
         {"terrain error", "tables"}, {"bench", "bench"}, {"view", "view-bench"}};
