@@ -1,6 +1,7 @@
 #!/bin/bash
-# Reports of 1, 2, 8 and 200 runs in a browser, 1400 and 1920 px wide: nothing cut, nothing
-# overlapping, no text below 11 px. Screenshots are left in the folder that is named.
+# Reports of 1, 2, 8, 200 and 10,000 runs in a browser, 390, 1400 and 1920 px wide, and as a printer
+# lays them out: nothing cut, nothing overlapping, no text below 11 px. Screenshots are left in the
+# folder that is named.
 #   reports_in_browser.sh OCTANT FOLDER
 set -u
 here=$(cd "$(dirname "$0")" && pwd)
@@ -33,12 +34,14 @@ runs=("$folder/$study"/runs/*)
 many=()
 for i in {1..25}; do many+=("${runs[@]}"); done
 "$octant" report "${many[@]}" --out "$folder/report-200.html" --quiet || fail "report of two hundred"
+for i in {1..49}; do many+=("${many[@]:0:200}"); done
+"$octant" report "${many[@]}" --out "$folder/report-10000.html" --quiet || fail "report of ten thousand"
 [[ $(stat -c %s "$folder/report-8.html") -lt 3000000 ]] || fail "the report of eight takes 3 MB or more"
 
 bad=0
-for page in 1 2 8 200; do
+for page in 1 2 8 200 10000; do
   { cat "$folder/report-$page.html"; echo "<script>"; cat "$here/check_page.js"; echo "</script>"; } >"$folder/checked-$page.html"
-  for width in 1400 1920; do
+  for width in 390 1400 1920; do
     options=(--headless --no-sandbox --disable-gpu --hide-scrollbars --user-data-dir="$folder/profile"
       --window-size="$width,2400" --virtual-time-budget=4000)
     "$browser" "${options[@]}" --screenshot="$folder/report-$page-$width.png" "file://$folder/report-$page.html" >/dev/null 2>&1

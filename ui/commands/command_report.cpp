@@ -26,8 +26,9 @@ using namespace command_line;
 namespace {
 
 struct ReportOptions : base::OutputOptions {
-    std::vector<std::string> folders;
+    std::vector<std::filesystem::path> folders;
     std::string out;
+    std::string baseline;
     std::string gate;
 };
 
@@ -55,13 +56,15 @@ void make_report(const ReportOptions& options) {
     const std::optional<report::Gate> gate =
         options.gate.empty() ? std::nullopt : std::optional(report::read_gate(options.gate));
     if (gate && options.folders.size() < 2) { throw Error("--gate: expected two recordings or more, got one"); }
-    std::vector<report::LoadedRecording> recordings;
-    for (const std::string& folder : options.folders) {
-        recordings.push_back(report::load_recording(folder));
-        print_capture_notes(options, recordings.back());
-        if (recordings.back().ended_early) {
-            base::print_note(options.quiet,
-                fmt::format("note: {} ended early, after {} frames", folder, recordings.back().flight.frames()));
+    if (!options.baseline.empty() && options.folders.size() < 2) {
+        throw Error("--baseline: expected two recordings or more, got one");
+    }
+    const std::vector<report::LoadedRecording> recordings = report::load_recordings(options.folders);
+    for (const report::LoadedRecording& recording : recordings) {
+        print_capture_notes(options, recording);
+        if (recording.ended_early) {
+            base::print_note(options.quiet, fmt::format("note: {} ended early, after {} frames", recording.display_name,
+                                                recording.flight.frames()));
         }
     }
     const std::filesystem::path first = options.folders.front();
@@ -69,10 +72,14 @@ void make_report(const ReportOptions& options) {
         throw Error("--out: expected a file for the page, got none");
     }
     const std::filesystem::path file = options.out.empty() ? first / "report.html" : std::filesystem::path(options.out);
-    write_file(file, report::html_report(recordings, {}, std::filesystem::absolute(file).parent_path()));
-    base::print_note(options.quiet, fmt::format("report: {}", file.string()));
     const std::vector<report::ComparedFlight> flights =
-        report::compared_flights(recordings, &settings::comparison_role);
+        report::compared_flights(recordings, &settings::comparison_role, options.baseline);
+    const std::vector<report::FlightChange> changes =
+        report::flight_changes(recordings, flights, &settings::comparison_role);
+    write_file(
+        file, report::html_report(recordings,
+                  {.folder = std::filesystem::absolute(file).parent_path(), .flights = flights, .changes = changes}));
+    base::print_note(options.quiet, fmt::format("report: {}", file.string()));
     const report::GateResult gate_result =
         gate ? report::gate_result(recordings, flights, *gate) : report::GateResult();
     if (options.json) {
@@ -112,6 +119,10 @@ Command report_command() {
                  Arity::OneOrMore, options->folders)),
                 with_shown_default("report.html in the first folder",
                     text_option("--out", "FILE.html", "page to write", options->out)),
+                with_shown_default("the first recording",
+                    text_option("--baseline", "NAME",
+                        "recording, or variant as the page names it, with which the others are compared",
+                        options->baseline)),
                 text_option("--gate", "FIGURE=N%,...",
                     "exit code 1 when a statistic of a recording exceeds that of the first recording by more than N %",
                     options->gate)}),

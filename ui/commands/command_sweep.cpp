@@ -8,6 +8,7 @@
 #include "ui/report/html_report.h"
 #include "ui/report/loaded_recording.h"
 #include "ui/report/video_pipe.h"
+#include "ui/settings/setting_rows.h"
 #include "ui/sweep/engine.h"
 #include "ui/sweep/paper.h"
 #include "ui/sweep/split_flight.h"
@@ -220,12 +221,16 @@ std::vector<report::ResultTable> problem_table(
 void write_results(const sweep::Sweep& sweep, const sweep::SweepFolder& folder,
     const std::vector<sweep::RunResult>& results, const std::vector<std::string>& hash_mismatches) {
     write_file(folder.path() / "sweep.csv", sweep::sweep_csv(folder, sweep, results));
-    std::vector<report::LoadedRecording> recordings;
+    std::vector<std::filesystem::path> done;
     for (const sweep::RunResult& result : results) {
-        if (result.done()) { recordings.push_back(report::load_recording(folder.recording(result.name))); }
+        if (result.done()) { done.push_back(folder.recording(result.name)); }
     }
-    write_file(folder.path() / "report.html",
-        report::html_report(recordings, problem_table(results, hash_mismatches), folder.path()));
+    const std::vector<report::ResultTable> problems = problem_table(results, hash_mismatches);
+    const std::vector<report::LoadedRecording> recordings = report::load_recordings(done);
+    const auto flights = report::compared_flights(recordings, &settings::comparison_role);
+    const auto changes = report::flight_changes(recordings, flights, &settings::comparison_role);
+    write_file(
+        folder.path() / "report.html", report::html_report(recordings, {problems, folder.path(), flights, changes}));
 }
 
 void print_end(const sweep::Sweep& sweep, const std::vector<sweep::RunResult>& results,

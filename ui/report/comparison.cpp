@@ -1,8 +1,6 @@
 #include "ui/report/comparison.h"
 
 #include "sim/base/error.h"
-#include "sim/base/nearest_rank.h"
-#include "sim/base/random_generator.h"
 #include "sim/base/text_file.h"
 #include "ui/report/frame_capture.h"
 #include "ui/report/frame_csv.h"
@@ -133,6 +131,32 @@ const Statistic* statistic_of(std::string_view name) {
     return found == all_statistics().end() || !found->less_is_better || found->decimals == 0 ? nullptr : &*found;
 }
 
+/// Puts the variant that has the recording or the name `baseline` first in each flight that has it. Throws Error where
+/// none has.
+void move_baseline_first(Recordings recordings, std::vector<ComparedFlight>& flights, std::string_view baseline) {
+    std::string name(baseline);
+    for (const ComparedFlight& flight : flights) {
+        for (const Variant& variant : flight.variants) {
+            const bool has_recording = std::ranges::any_of(variant.runs, [&](std::size_t i) {
+                return recordings[i].name == baseline || recordings[i].display_name == baseline;
+            });
+            if (has_recording) { name = variant.name; }
+        }
+    }
+    bool is_found = false;
+    for (ComparedFlight& flight : flights) {
+        const auto found = std::ranges::find(flight.variants, name, &Variant::name);
+        if (found == flight.variants.end()) { continue; }
+        std::rotate(flight.variants.begin(), found, found + 1);
+        is_found = true;
+    }
+    if (!is_found) {
+        throw Error(fmt::format("--baseline: expected one of the recordings or the name of a variant such as '{}', "
+                                "got '{}'",
+            printable(flights.empty() ? "" : flights.front().variants.front().name), printable(name)));
+    }
+}
+
 } // namespace
 
 std::vector<std::string> flight_differences(
@@ -170,27 +194,12 @@ std::vector<ComparedFlight> compared_flights(Recordings recordings, SettingRoles
         }
         variants[variant->second].runs.push_back(i);
     }
-    bool has_baseline = baseline.empty();
     for (std::size_t f = 0; f < flights.size(); ++f) {
         auto& variants = flights[f].variants;
         const std::vector<std::string> names = differing_names(drawings[f]);
         for (std::size_t v = 0; v < variants.size(); ++v) { variants[v].name = variant_name(drawings[f][v], names); }
-        const auto is_baseline = [&](const Variant& variant) {
-            return variant.name == baseline || std::ranges::any_of(variant.runs, [&](std::size_t i) {
-                return recordings[i].name == baseline || recordings[i].display_name == baseline;
-            });
-        };
-        const auto found = std::ranges::find_if(variants, is_baseline);
-        if (!baseline.empty() && found != variants.end()) {
-            has_baseline = true;
-            std::rotate(variants.begin(), found, found + 1);
-        }
     }
-    if (!has_baseline) {
-        throw Error(fmt::format("--baseline: expected one of the recordings or the name of a variant such as '{}', "
-                                "got '{}'",
-            printable(flights.empty() ? "" : flights.front().variants.front().name), printable(std::string(baseline))));
-    }
+    if (!baseline.empty()) { move_baseline_first(recordings, flights, baseline); }
     return flights;
 }
 
@@ -466,87 +475,6 @@ std::string answer_text(std::span<const FlightChange> changes, double limit, dou
             fmt::format(", geometric mean {:+.1f} %", 100.0 * std::expm1(logarithms / static_cast<double>(counted)));
     }
     return untold == 0 ? text : text + fmt::format("; {} cannot be told", untold);
-}
-
-namespace {
-
-/// Settings that make another flight or another picture of it, not another way to draw it.
-constexpr std::array<std::string_view, 17> flight_settings{"path", "aircraft", "axes", "terrain", "terrain-spacing",
-    "place", "heading", "height-mode", "view", "size", "rate", "frame-per-sample", "start", "frames", "seconds", "fov",
-    "warm-up"};
-
-double bootstrap_median(std::span<const double> values, RandomGenerator& dice) {
-    std::vector<double> drawn;
-    for (std::size_t i = 0; i < values.size(); ++i) {
-        const auto at = static_cast<std::size_t>(dice.next() * static_cast<double>(values.size()));
-        drawn.push_back(values[at]);
-    }
-    return median_of(std::move(drawn));
-}
-
-} // namespace
-
-std::vector<std::string> settings_that_differ(const LoadedRecording& first, const LoadedRecording& second) {
-    std::vector<std::string> names;
-    for (const std::string_view name : flight_settings) {
-        if (value_of(first.run.settings, name) != value_of(second.run.settings, name)) { names.emplace_back(name); }
-    }
-    if (first.capture_format.empty() != second.capture_format.empty() ||
-        value_of(first.run.facts, application_fact) != value_of(second.run.facts, application_fact)) {
-        names.emplace_back(application_fact);
-    }
-    if (first.run.machine_info.cpu != second.run.machine_info.cpu ||
-        first.run.machine_info.cores != second.run.machine_info.cores) {
-        names.emplace_back("processor");
-    }
-    return names;
-}
-
-std::vector<std::vector<std::size_t>> comparable_groups(Recordings recordings) {
-    std::vector<std::vector<std::size_t>> groups;
-    for (std::size_t i = 0; i < recordings.size(); ++i) {
-        const auto found = std::ranges::find_if(groups,
-            [&](const auto& group) { return settings_that_differ(recordings[group.front()], recordings[i]).empty(); });
-        if (found == groups.end()) {
-            groups.push_back({i});
-        } else {
-            found->push_back(i);
-        }
-    }
-    return groups;
-}
-
-std::vector<std::vector<std::size_t>> variants_of(Recordings recordings, std::span<const std::size_t> group) {
-    std::vector<std::vector<std::size_t>> variants;
-    for (const std::size_t i : group) {
-        const auto found = std::ranges::find_if(variants, [&](const auto& variant) {
-            return recordings[variant.front()].run.settings == recordings[i].run.settings;
-        });
-        if (found == variants.end()) {
-            variants.push_back({i});
-        } else {
-            found->push_back(i);
-        }
-    }
-    return variants;
-}
-
-RelativeChange relative_change(std::span<const double> before, std::span<const double> after) {
-    constexpr std::size_t min_runs = 3;
-    constexpr int resamples = 4000;
-    RelativeChange change;
-    change.share = median_of({after.begin(), after.end()}) / median_of({before.begin(), before.end()}) - 1.0;
-    if (before.size() < min_runs || after.size() < min_runs) { return change; }
-    RandomGenerator dice(1979);
-    std::vector<double> shares;
-    for (int i = 0; i < resamples; ++i) {
-        const double old = bootstrap_median(before, dice);
-        shares.push_back(bootstrap_median(after, dice) / old - 1.0);
-    }
-    change.has_interval = true;
-    change.low = nearest_rank(shares, 25);
-    change.high = nearest_rank(shares, 975);
-    return change;
 }
 
 Gate read_gate(const std::string& text) {

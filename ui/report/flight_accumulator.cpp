@@ -25,20 +25,33 @@ CurvePiece joined(const CurvePiece& earlier, const CurvePiece& later) {
         later.highest.y > earlier.highest.y ? later.highest : earlier.highest};
 }
 
-PlotSeries Curve::series(std::size_t max_pieces) const {
+std::vector<CurvePiece> Curve::thinned(std::size_t max_pieces) const {
     assert(max_pieces >= 1);
+    const std::vector<CurvePiece>& pieces = pieces_.pieces();
+    const std::size_t count = std::min(pieces.size(), max_pieces);
+    std::vector<CurvePiece> fewer;
+    for (std::size_t i = 0; i < count; ++i) {
+        fewer.push_back(pieces[i * pieces.size() / count]);
+        for (std::size_t j = i * pieces.size() / count + 1; j < (i + 1) * pieces.size() / count; ++j) {
+            fewer.back() = joined(fewer.back(), pieces[j]);
+        }
+    }
+    return fewer;
+}
+
+void Curve::thin(std::size_t max_pieces) {
+    const std::vector<CurvePiece> fewer = thinned(max_pieces);
+    pieces_ = {};
+    for (const CurvePiece& piece : fewer) { pieces_.add(piece); }
+}
+
+PlotSeries Curve::series(std::size_t max_pieces) const {
     PlotSeries series;
     const auto add_point = [&](const glm::dvec2& point) {
         series.x.push_back(point.x);
         series.y.push_back(point.y);
     };
-    const std::vector<CurvePiece>& pieces = pieces_.pieces();
-    const std::size_t count = std::min(pieces.size(), max_pieces);
-    for (std::size_t i = 0; i < count; ++i) {
-        CurvePiece piece = pieces[i * pieces.size() / count];
-        for (std::size_t j = i * pieces.size() / count + 1; j < (i + 1) * pieces.size() / count; ++j) {
-            piece = joined(piece, pieces[j]);
-        }
+    for (const CurvePiece& piece : thinned(max_pieces)) {
         const bool rises = piece.lowest.x <= piece.highest.x;
         add_point(rises ? piece.lowest : piece.highest);
         if (piece.lowest.x != piece.highest.x) { add_point(rises ? piece.highest : piece.lowest); }
@@ -127,6 +140,19 @@ void FlightAccumulator::add(const FrameRecord& record) {
     targets_.max_triangles = std::max(targets_.max_triangles, target);
     targets_.mean += target;
     ++reported_counts_;
+}
+
+void FlightAccumulator::keep_frame_times(std::size_t max_pieces) {
+    FlightAccumulator fewer;
+    fewer.frames_ = frames_;
+    fewer.begin_s_ = begin_s_;
+    fewer.end_s_ = end_s_;
+    fewer.has_stages_ = has_stages_;
+    fewer.reported_counts_ = reported_counts_;
+    fewer.targets_ = targets_;
+    fewer.frame_ms = std::move(frame_ms);
+    fewer.frame_ms.thin(max_pieces);
+    *this = std::move(fewer);
 }
 
 TargetRange FlightAccumulator::triangle_targets() const {
@@ -232,6 +258,10 @@ Plot curve_plot(
 }
 
 } // namespace
+
+std::size_t max_curve_pieces(std::size_t flights) {
+    return std::clamp<std::size_t>(80'000 / flights, 20, 400); // of two points of some 11 bytes
+}
 
 double plot_ceiling_ms(const Statistics& statistics) {
     constexpr double room_for_level_ms = 18.0; // for the line of 16.67 ms

@@ -78,7 +78,12 @@ public:
     /// Its points in order, in at most `max_pieces` (>= 1) pieces of two points each.
     PlotSeries series(std::size_t max_pieces = 900) const;
 
+    /// Joins pieces until there are at most `max_pieces` (>= 1).
+    void thin(std::size_t max_pieces);
+
 private:
+    std::vector<CurvePiece> thinned(std::size_t max_pieces) const;
+
     ThinnedPieces<CurvePiece, 900> pieces_;
 };
 
@@ -151,6 +156,10 @@ public:
     /// False where no frame has the time of a stage or ground, as in frame times that another program recorded.
     bool has_stages() const { return has_stages_; }
 
+    /// Forgets what a page of several flights does not show: all but the counts of frames, the simulated times, and the
+    /// curve of frame times in at most `max_pieces` (>= 1). Ends adding.
+    void keep_frame_times(std::size_t max_pieces);
+
     Curve warm_up_ms; ///< frame times of the warm-up; all curves are over simulated time
     Curve frame_ms;
     Curve triangles;
@@ -171,6 +180,10 @@ private:
     long reported_counts_ = 0;
     TargetRange targets_; ///< mean is the sum
 };
+
+/// Pieces of each flight's curve in a page of so many flights (>= 1): fewer where there are many, so that a page of ten
+/// thousand stays below 10 MB.
+std::size_t max_curve_pieces(std::size_t flights);
 
 /// Top of a flight's frame-time plots: above its longest counted frame, but no more than 2.5 times P99, so that one
 /// stray frame does not flatten the rest (its curve leaves the plot); above 16.67 ms, too, unless that is so far off

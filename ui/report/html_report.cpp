@@ -12,8 +12,10 @@
 #include <cstddef>
 #include <cstdlib>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <map>
 #include <numeric>
+#include <set>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -48,16 +50,30 @@ std::string title_of(const LoadedRecording& recording) {
     return recording.run.title.empty() ? recording.name : recording.run.title;
 }
 
-/// What tells a recording from the others: its folder's name, or its whole path where names repeat.
-std::string label_of(Recordings recordings, const LoadedRecording& recording) {
-    return std::ranges::count(recordings, recording.name, &LoadedRecording::name) == 1 ? recording.name
-                                                                                       : recording.display_name;
+/// What tells each recording from the others: its folder's name, or its whole path where names repeat.
+std::vector<std::string> labels_of(Recordings recordings) {
+    std::map<std::string_view, int> counts;
+    for (const LoadedRecording& recording : recordings) { ++counts[recording.name]; }
+    std::vector<std::string> labels;
+    for (const LoadedRecording& recording : recordings) {
+        labels.push_back(counts[recording.name] == 1 ? recording.name : recording.display_name);
+    }
+    return labels;
 }
 
-/// A file's name without its folder, which is too long for a table; any other text as it is.
-std::string short_value(const std::string& value) {
-    if (value == unset_value) { return "not set"; }
-    return value.find('/') == std::string::npos ? value : fs::path(value).filename().string();
+/// A setting's values as a table shows them: without folders where that leaves different values different.
+std::vector<std::string> shown_values(Recordings recordings, std::string_view setting) {
+    std::vector<std::string> whole;
+    std::vector<std::string> brief;
+    for (const LoadedRecording& recording : recordings) {
+        const std::string value = value_of(recording.run.settings, setting);
+        whole.push_back(value == unset_value ? "not set" : value);
+        brief.push_back(value.find('/') == std::string::npos ? whole.back() : fs::path(value).filename().string());
+    }
+    const auto different = [](const std::vector<std::string>& values) {
+        return std::set<std::string_view>(values.begin(), values.end()).size();
+    };
+    return different(brief) == different(whole) ? brief : whole;
 }
 
 Indices all_of(Recordings recordings) {
@@ -75,13 +91,6 @@ std::vector<std::string> differing_settings(Recordings recordings, const Indices
         if (differs) { names.push_back(row.first); }
     }
     return names;
-}
-
-/// End of the axis of frame times of all these recordings, milliseconds.
-double shared_ceiling_ms(Recordings recordings, const Indices& runs) {
-    double ceiling_ms = 0.0;
-    for (const std::size_t i : runs) { ceiling_ms = std::max(ceiling_ms, plot_ceiling_ms(recordings[i].statistics)); }
-    return ceiling_ms;
 }
 
 // The top of the page: what came of each flight.
@@ -177,20 +186,24 @@ std::string machine_sharing_text(Recordings recordings) {
     return text;
 }
 
+/// Rows of a table, above which they are made while the reader scrolls.
+constexpr std::size_t max_html_rows = 100;
+
 /// Several flights, a row each: settings in which they differ, figures, hashes and faults.
-std::string runs_table(Recordings recordings, const fs::path& page_folder) {
+std::string runs_table(Recordings recordings, const std::vector<std::string>& labels, const fs::path& page_folder) {
     constexpr std::size_t max_settings = 6;
     constexpr int max_decimals = 2;
     std::vector<std::string> names = differing_settings(recordings, all_of(recordings));
     const std::size_t left_out = names.size() - std::min(names.size(), max_settings);
     names.resize(names.size() - left_out);
+    std::vector<std::vector<std::string>> values;
+    for (const std::string& name : names) { values.push_back(shown_values(recordings, name)); }
     ResultTable table;
-    for (const LoadedRecording& recording : recordings) {
-        std::vector<Cell> row = {{"flight", label_of(recordings, recording)}};
+    for (std::size_t i = 0; i < recordings.size(); ++i) {
+        const LoadedRecording& recording = recordings[i];
+        std::vector<Cell> row = {{"flight", labels[i]}};
         row.back().link = link_to(recording, page_folder);
-        for (const std::string& name : names) {
-            row.emplace_back(name, short_value(value_of(recording.run.settings, name)));
-        }
+        for (std::size_t n = 0; n < names.size(); ++n) { row.emplace_back(names[n], values[n][i]); }
         for (const char* key : shown_statistics) {
             const Statistic& statistic = statistic_named(key);
             row.push_back({std::string(statistic.name), "{:.{}f}", statistic.value(recording.statistics),
@@ -205,134 +218,267 @@ std::string runs_table(Recordings recordings, const fs::path& page_folder) {
                           : styled({"condition", condition}, "worse"));
         table.add(std::move(row));
     }
-    table.note = "A click on a column's head sorts by it. States and pictures are the first eight digits of their "
+    table.note = "The button in a column's head sorts by it. States and pictures are the first eight digits of their "
                  "hashes." +
                  machine_sharing_text(recordings);
     if (left_out > 0) {
         table.note += fmt::format(" {} more settings differ; they are in the flights' own pages.", left_out);
     }
-    return card_html(html_of(table, "sortable runs"));
+    return heading_html("All flights") + card_html(html_of(table, {"sortable runs", max_html_rows}));
 }
 
-// Flights of the same path on the same kind of machine, compared.
+// The comparison as the page shows it.
 
-/// "order-method exact, samples 4", by the settings in which variants differ.
-std::string variant_label(const LoadedRecording& recording, const std::vector<std::string>& names) {
-    std::string label;
-    for (const std::string& name : names) {
-        label += fmt::format(
-            "{}{} {}", label.empty() ? "" : ", ", name, short_value(value_of(recording.run.settings, name)));
+/// What is said of a change: slower, faster, no change found, or that it cannot be told.
+enum class Outcome { Slower, Faster, NoChange, Unknown };
+
+constexpr double change_limit = 0.0;       ///< of verdict_of() and answer_text()
+constexpr double change_resolution = 0.02; ///< as change_limit
+
+/// A variant of a flight against the baseline of that flight.
+struct ComparisonRow {
+    std::size_t flight = 0;  ///< in Comparison::flights
+    std::size_t variant = 0; ///< of the flight; the first is the baseline
+    const FlightChange* change = nullptr;
+    Outcome outcome = Outcome::Unknown;
+};
+
+struct Comparison {
+    std::vector<ComparedFlight> flights; ///< those of which there are two recordings or more
+    std::vector<ComparisonRow> rows;
+};
+
+Outcome outcome_of(const FlightChange& change) {
+    if (change.is_changed()) { return change.frames.share() < 0.0 ? Outcome::Faster : Outcome::Slower; }
+    return verdict_of(std::span(&change, 1), change_limit, change_resolution) == Verdict::CannotTell
+               ? Outcome::Unknown
+               : Outcome::NoChange;
+}
+
+/// Adds to the names of flights the settings in which they differ where names repeat.
+void tell_apart(Recordings recordings, std::vector<ComparedFlight>& flights) {
+    std::set<std::string_view> names;
+    Indices firsts;
+    for (const ComparedFlight& flight : flights) {
+        names.insert(flight.name);
+        firsts.push_back(flight.variants.front().runs.front());
     }
-    return label.empty() ? "all the same" : label;
+    if (names.size() == flights.size()) { return; }
+    for (const std::string& setting : differing_settings(recordings, firsts)) {
+        const std::vector<std::string> values = shown_values(recordings, setting);
+        for (std::size_t i = 0; i < flights.size(); ++i) {
+            flights[i].name += fmt::format(", {} {}", setting, values[firsts[i]]);
+        }
+    }
 }
 
-std::vector<double> values_of(Recordings recordings, const Indices& runs, const Statistic& statistic) {
+/// `changes`: of each variant but the first of each flight, in their order.
+Comparison comparison_of(
+    Recordings recordings, std::span<const ComparedFlight> flights, std::span<const FlightChange> changes) {
+    Comparison comparison;
+    for (const ComparedFlight& flight : flights) {
+        if (flight.variants.size() == 1 && flight.variants.front().runs.size() == 1) { continue; }
+        for (std::size_t v = 1; v < flight.variants.size(); ++v) {
+            const FlightChange& change = changes[comparison.rows.size()];
+            comparison.rows.push_back({comparison.flights.size(), v, &change, outcome_of(change)});
+        }
+        comparison.flights.push_back(flight);
+    }
+    tell_apart(recordings, comparison.flights);
+    return comparison;
+}
+
+// The answer, the matrix and the changes one by one.
+
+/// A change with its mark and colour.
+Cell change_cell(std::string column, const ComparisonRow& row, bool with_interval) {
+    constexpr std::array classes{"slower", "faster", "no-change", "unknown"};
+    const FrameChange& frames = row.change->frames;
+    std::string text = frames.frames > 0 ? fmt::format("{:+.1f} %", 100.0 * frames.share()) : "no frames";
+    if (with_interval && frames.change) {
+        text += fmt::format(" ({:+.1f} to {:+.1f} %)", 100.0 * frames.low_share(), 100.0 * frames.high_share());
+    }
+    return styled({std::move(column), text}, classes[static_cast<std::size_t>(row.outcome)]);
+}
+
+/// The answer in a sentence, and how many changes are of which kind.
+std::string answer_html(const Comparison& comparison, std::span<const FlightChange> changes) {
+    constexpr std::array marks{"\u25B2", "\u25BC", "=", "?"};
+    std::string answer = answer_text(changes, change_limit, change_resolution);
+    std::string more;
+    if (comparison.flights.empty()) {
+        answer = "Nothing is compared: no two recordings are of the same flight on the same kind of machine";
+    } else if (comparison.rows.empty()) {
+        answer = "Nothing is compared: recordings of the same flight are repeats of one variant";
+    } else if (comparison.rows.size() == 1) {
+        const ComparisonRow& row = comparison.rows.front();
+        answer = fmt::format("{} {}", marks[static_cast<std::size_t>(row.outcome)], answer);
+        more = fmt::format("{}, compared with {}.", row.change->new_variant, row.change->old_variant);
+    } else {
+        std::array<std::size_t, marks.size()> counts{};
+        for (const ComparisonRow& row : comparison.rows) { ++counts[static_cast<std::size_t>(row.outcome)]; }
+        more = fmt::format("{} {} slower, {} {} faster, {} {} without a change, {} {} that cannot be told.", marks[0],
+            counts[0], marks[1], counts[1], marks[2], counts[2], marks[3], counts[3]);
+    }
+    return "<p class=\"answer\">" + escaped(answer) + ".</p>\n" +
+           (more.empty() ? "" : "<p>" + escaped(more) + "</p>\n");
+}
+
+/// Variants in rows and flights in columns, or the other way round where there are many flights.
+struct Matrix {
+    std::vector<std::string> rows;
+    std::vector<std::string> columns;
+    std::map<std::pair<std::size_t, std::size_t>, Cell> cells; ///< by row and column
+    bool rows_are_flights = false;
+};
+
+Matrix matrix_of(const Comparison& comparison) {
+    constexpr std::size_t max_flight_columns = 24;
+    std::vector<std::string> flights;
+    std::vector<std::string> variants;
+    std::map<std::string_view, std::size_t> places; // of variants
+    for (const ComparedFlight& flight : comparison.flights) {
+        for (const Variant& variant : flight.variants) {
+            if (flight.variants.size() > 1 && places.try_emplace(variant.name, variants.size()).second) {
+                variants.push_back(variant.name);
+            }
+        }
+    }
+    std::map<std::pair<std::size_t, std::size_t>, Cell> cells; // by variant and flight
+    for (const ComparisonRow& row : comparison.rows) {
+        const ComparedFlight& flight = comparison.flights[row.flight];
+        if (row.variant == 1) {
+            flights.push_back(flight.name);
+            cells.emplace(std::pair(places.at(flight.variants.front().name), flights.size() - 1),
+                styled({"", "{:.3f} ms", row.change->frames.old_ms}, "soft"));
+        }
+        cells.emplace(
+            std::pair(places.at(flight.variants[row.variant].name), flights.size() - 1), change_cell("", row, false));
+    }
+    Matrix matrix{
+        variants, flights, std::move(cells), flights.size() > max_flight_columns && flights.size() > variants.size()};
+    if (matrix.rows_are_flights) {
+        std::swap(matrix.rows, matrix.columns);
+        std::map<std::pair<std::size_t, std::size_t>, Cell> turned;
+        for (auto& [at, cell] : matrix.cells) { turned.emplace(std::pair(at.second, at.first), std::move(cell)); }
+        matrix.cells = std::move(turned);
+    }
+    return matrix;
+}
+
+/// The matrix in tables of at most 12 columns, so that it is not wider than a page.
+std::string matrix_html(const Comparison& comparison) {
+    constexpr std::size_t max_columns = 12;
+    const Matrix matrix = matrix_of(comparison);
+    std::string html;
+    for (std::size_t begin = 0; begin < matrix.columns.size(); begin += max_columns) {
+        const std::size_t end = std::min(begin + max_columns, matrix.columns.size());
+        ResultTable table;
+        for (std::size_t r = 0; r < matrix.rows.size(); ++r) {
+            std::vector<Cell> row = {{matrix.rows_are_flights ? "flight" : "variant", matrix.rows[r]}};
+            for (std::size_t c = begin; c < end; ++c) {
+                const auto found = matrix.cells.find({r, c});
+                row.push_back(found == matrix.cells.end() ? Cell("", "") : found->second);
+                row.back().column = matrix.columns[c];
+            }
+            table.add(std::move(row));
+        }
+        html += html_of(table, {"sortable matrix"});
+    }
+    return html + note_html(fmt::format(
+                      "Change of the frame time from the baseline, whose own is shown in ms. \u25B2 slower, \u25BC "
+                      "faster: certain at 5 % with all comparisons of this page counted. = no change found, and a "
+                      "slowdown above {:.0f} % excluded. ? cannot tell: the interval is wider, or a side has fewer "
+                      "than three runs.",
+                      100.0 * change_resolution));
+}
+
+/// "frames 210-260; plan stage +0.80 ms; other pictures".
+std::string remarks_on(const FlightChange& change) {
+    std::vector<std::string> parts;
+    if (const auto& frames = change.frames.frames_changed) {
+        parts.push_back(fmt::format("frames {}-{}", frames->first_frame, frames->last_frame));
+    }
+    if (const auto& stage = change.frames.stage_changed) {
+        parts.push_back(fmt::format("{} stage {:+.2g} ms", stage_names[stage->stage], stage->change_ms));
+    }
+    if (!change.same_states) { parts.emplace_back("other states"); }
+    if (!change.same_pictures) { parts.emplace_back("other pictures"); }
+    return fmt::format("{}", fmt::join(parts, "; "));
+}
+
+/// The median of a variant's P99; "none" where no run has frames.
+std::string p99_text(Recordings recordings, const Variant& variant) {
     std::vector<double> values;
-    for (const std::size_t i : runs) {
-        if (recordings[i].statistics.frames > 0) { values.push_back(statistic.value(recordings[i].statistics)); }
+    for (const std::size_t i : variant.runs) {
+        if (recordings[i].statistics.frames > 0) { values.push_back(recordings[i].statistics.p99_ms); }
     }
-    return values;
+    return values.empty() ? "none" : fmt::format("{:.3f}", median_of(values));
 }
 
-/// Whether other programs, or flights on the same cores, took part in the runs' frame times.
-bool is_noisy(Recordings recordings, const Indices& runs) {
-    return std::ranges::any_of(runs, [&](std::size_t i) { return !recordings[i].run.noise.empty(); });
-}
-
-/// The change of a figure from the first variant: green or red where it is significant and both were quiet.
-Cell change_cell(std::string column, std::span<const double> before, std::span<const double> now, bool is_quiet) {
-    if (before.empty() || now.empty()) { return {std::move(column), ""}; }
-    const RelativeChange change = relative_change(before, now);
-    std::string text = fmt::format("{:+.1f} %", 100.0 * change.share);
-    if (change.has_interval) {
-        text += fmt::format(" ({:+.1f} to {:+.1f} %)", 100.0 * change.low, 100.0 * change.high);
-    }
-    const bool is_decided = change.is_significant() && is_quiet;
-    return styled({std::move(column), text}, !is_decided ? "" : (change.share < 0.0 ? "better" : "worse"));
-}
-
-/// A row for each variant of a flight: medians of its runs, and the change from the first variant.
-std::string comparison_table(Recordings recordings, const std::vector<Indices>& variants) {
-    Indices all;
-    for (const Indices& variant : variants) { all.insert(all.end(), variant.begin(), variant.end()); }
-    const std::vector<std::string> names = differing_settings(recordings, all);
-    const Indices& first = variants.front();
+/// All changes, a row each.
+std::string changes_table(Recordings recordings, const Comparison& comparison) {
+    const std::string& baseline = comparison.rows.front().change->old_variant;
+    const bool is_one_baseline =
+        std::ranges::all_of(comparison.rows, [&](const auto& row) { return row.change->old_variant == baseline; });
     ResultTable table;
-    bool noisy = false;
-    for (const Indices& variant : variants) {
-        const bool is_first = &variant == &first;
-        const bool is_loud = is_noisy(recordings, first) || is_noisy(recordings, variant);
-        noisy = noisy || (is_loud && !is_first);
-        std::vector<Cell> row = {
-            {"variant", variant_label(recordings[variant.front()], names)}, {"runs", variant.size()}};
-        for (const char* key : {"p50_ms", "p99_ms"}) {
-            const Statistic& statistic = statistic_named(key);
-            const std::vector<double> before = values_of(recordings, first, statistic);
-            const std::vector<double> now = values_of(recordings, variant, statistic);
-            row.emplace_back(std::string(statistic.name), now.empty() ? "none" : fmt::format("{:.3f}", median_of(now)));
-            row.push_back(is_first ? styled({"change", "compared with this one"}, "soft")
-                                   : change_cell("change", before, now, !is_loud));
-        }
-        table.add(std::move(row));
+    for (const ComparisonRow& row : comparison.rows) {
+        const ComparedFlight& flight = comparison.flights[row.flight];
+        const FrameChange& frames = row.change->frames;
+        std::vector<Cell> cells;
+        if (comparison.flights.size() > 1) { cells.emplace_back("flight", flight.name); }
+        cells.emplace_back("variant", row.change->new_variant);
+        if (!is_one_baseline) { cells.emplace_back("baseline", row.change->old_variant); }
+        cells.push_back({"runs", "{}+{}", frames.old_runs, frames.new_runs});
+        cells.push_back({"baseline, ms", "{:.3f}", frames.old_ms});
+        cells.push_back({"ms", "{:.3f}", frames.new_ms});
+        cells.push_back(change_cell("change", row, true));
+        cells.emplace_back("where", remarks_on(*row.change));
+        cells.emplace_back("P99 of baseline, ms", p99_text(recordings, flight.variants.front()));
+        cells.emplace_back("P99, ms", p99_text(recordings, flight.variants[row.variant]));
+        table.add(std::move(cells));
     }
-    table.note = "Medians over the runs of a variant. In brackets the 95 % interval of the change by the bootstrap "
-                 "over runs, where both variants have three runs or more; green or red only where zero lies outside.";
-    if (noisy) {
-        table.note += " No change from or to noisy runs is called better or worse: other programs, or flights on the "
-                      "same cores, took part in their times.";
-    }
-    return html_of(table);
-}
-
-/// The frame times of a flight's runs over simulated time in one plot, at most 12 curves.
-std::string overlaid_plot(Recordings recordings, const std::vector<Indices>& variants, double ceiling_ms) {
-    constexpr std::size_t max_curves = 12;
-    Plot plot{"Frame time of each run", "simulated time, s", "ms", {}, {}, 0.0, ceiling_ms};
-    const std::size_t max_of_each = std::max<std::size_t>(1, max_curves / variants.size());
-    std::size_t runs = 0;
-    for (std::size_t v = 0; v < variants.size(); ++v) {
-        runs += variants[v].size();
-        const std::size_t max_here = std::min(max_of_each, max_curves - plot.series.size());
-        for (std::size_t k = 0; k < std::min(variants[v].size(), max_here); ++k) {
-            const LoadedRecording& recording = recordings[variants[v][k]];
-            PlotSeries curve = recording.flight.frame_ms.series(400);
-            curve.name = label_of(recordings, recording);
-            curve.colour = run_colours[v % run_colours.size()];
-            plot.series.push_back(std::move(curve));
-        }
-    }
-    plot.levels = {{"16.67 ms", overrun_16_ms}};
-    plot.marks = recordings[variants.front().front()].run.legs;
-    const std::string html = page_plot(plot, PlotWidth::FullWidth);
-    return plot.series.size() == runs ? html
-                                      : html + note_html(fmt::format("{} of {} runs.", plot.series.size(), runs));
-}
-
-/// Recordings of the same flight on the same kind of machine: a table of their variants where settings differ, and
-/// their frame times in one plot. Says so where no two belong together.
-std::string compared_flights(Recordings recordings) {
-    constexpr std::size_t max_groups = 24;
-    std::vector<Indices> groups = comparable_groups(recordings);
-    std::erase_if(groups, [](const Indices& group) { return group.size() < 2; });
-    if (groups.empty()) {
-        return note_html("No two of these recordings are of the same flight on the same kind of machine, so none are "
-                         "compared.");
-    }
-    std::string html = heading_html("The same flight, compared");
-    for (const Indices& group : std::span(groups).first(std::min(groups.size(), max_groups))) {
-        const std::vector<Indices> variants = variants_of(recordings, group);
-        html += card_html("<h3>" + escaped(title_of(recordings[group.front()])) + "</h3>\n" +
-                          (variants.size() > 1 ? comparison_table(recordings, variants) : "") +
-                          overlaid_plot(recordings, variants, shared_ceiling_ms(recordings, group)));
-    }
-    if (groups.size() > max_groups) {
-        html += note_html(
-            fmt::format("The first {} of {} flights that were flown more than once.", max_groups, groups.size()));
-    }
-    return html;
+    table.note = "Medians over the runs of a variant of their mean frame times, the change frame by frame with its "
+                 "95 % interval in brackets, and medians of P99.";
+    if (is_one_baseline) { table.note = fmt::format("The baseline is {}. ", baseline) + table.note; }
+    return heading_html("Changes") + card_html(html_of(table, {"sortable", max_html_rows}));
 }
 
 // Plots and pictures.
+
+/// The frame times of a flight's runs over simulated time, at most 12 shared curves.
+Plot overlaid_plot(Recordings recordings, const ComparedFlight& flight) {
+    constexpr std::size_t max_curves = 12;
+    Plot plot{flight.name, "simulated time, s", "ms", {}, {}, 0.0, 0.0};
+    const std::size_t max_of_each = std::max<std::size_t>(1, max_curves / flight.variants.size());
+    std::size_t runs = 0;
+    double ceiling_ms = 0.0;
+    for (std::size_t v = 0; v < flight.variants.size(); ++v) {
+        const Indices& variant = flight.variants[v].runs;
+        runs += variant.size();
+        for (const std::size_t i : variant) {
+            ceiling_ms = std::max(ceiling_ms, plot_ceiling_ms(recordings[i].statistics));
+        }
+        const std::size_t max_here = std::min(max_of_each, max_curves - plot.series.size());
+        for (const std::size_t i : std::span(variant).first(std::min(variant.size(), max_here))) {
+            plot.series.push_back({.name = "", .colour = run_colours[v % run_colours.size()], .shared_curve = i});
+        }
+    }
+    if (plot.series.size() < runs) { plot.title += fmt::format(" ({} of {} runs)", plot.series.size(), runs); }
+    plot.y_max = ceiling_ms;
+    plot.levels = {{"16.67 ms", overrun_16_ms}};
+    plot.marks = recordings[flight.variants.front().runs.front()].run.legs;
+    return plot;
+}
+
+/// The frame times of each compared flight's runs in one plot.
+std::string overlaid_plots(Recordings recordings, const Comparison& comparison, std::span<const PlotSeries> curves) {
+    if (comparison.flights.empty()) { return {}; }
+    std::vector<Plot> plots;
+    for (const ComparedFlight& flight : comparison.flights) { plots.push_back(overlaid_plot(recordings, flight)); }
+    return heading_html("Frame times of the same flight, a colour for each variant") +
+           card_html(page_plot_list(plots, curves, plots.size() == 1 ? PlotWidth::FullWidth : PlotWidth::HalfWidth));
+}
 
 /// All plots of one flight, over simulated time with the legs of its path.
 std::string plots_of_one(const LoadedRecording& recording) {
@@ -350,41 +496,49 @@ std::string plots_of_one(const LoadedRecording& recording) {
     return html + "</div>\n" + note_html(text);
 }
 
+/// The frame times of all recordings, for plots to share: the more there are, the fewer points each has.
+std::vector<PlotSeries> frame_time_curves(Recordings recordings, const std::vector<std::string>& labels) {
+    std::vector<PlotSeries> curves;
+    for (const LoadedRecording& recording : recordings) {
+        curves.push_back(recording.flight.frame_ms.series(max_curve_pieces(recordings.size())));
+        curves.back().name = labels[curves.size() - 1];
+    }
+    return curves;
+}
+
 /// A small plot of each flight, on common axes.
-std::string plots_of_several(Recordings recordings) {
-    const double ceiling_ms = shared_ceiling_ms(recordings, all_of(recordings));
-    const std::size_t pieces = recordings.size() > 40 ? 60 : 150;
+std::string plots_of_several(Recordings recordings, std::span<const PlotSeries> curves) {
     double begin_s = 0.0;
     double end_s = 0.0;
+    double ceiling_ms = 0.0;
     for (const LoadedRecording& recording : recordings) {
         begin_s = std::min(begin_s, recording.flight.begin_s());
         end_s = std::max(end_s, recording.flight.end_s());
+        ceiling_ms = std::max(ceiling_ms, plot_ceiling_ms(recording.statistics));
     }
-    std::string html;
-    for (const LoadedRecording& recording : recordings) {
-        Plot plot{label_of(recordings, recording), "simulated time, s", "ms", {}, {}, 0.0, ceiling_ms};
-        plot.x_min = begin_s;
-        plot.x_max = end_s;
-        plot.series.push_back(recording.flight.frame_ms.series(pieces));
-        plot.series.back().colour = run_colours.front();
-        plot.levels = {{"16.67 ms", overrun_16_ms}};
-        html += page_plot(plot, PlotWidth::Small);
+    std::vector<Plot> plots;
+    for (std::size_t i = 0; i < recordings.size(); ++i) {
+        plots.push_back({"", "simulated time, s", "ms", {}, {}, 0.0, ceiling_ms});
+        plots.back().x_min = begin_s;
+        plots.back().x_max = end_s;
+        plots.back().series = {{.name = "", .colour = run_colours.front(), .shared_curve = i}};
+        plots.back().levels = {{"16.67 ms", overrun_16_ms}};
     }
     return heading_html("Frame time of each flight, ms over seconds, on common axes") +
-           card_html("<div class=\"small-plots\">\n" + html + "</div>\n");
+           card_html(page_plot_list(plots, curves, PlotWidth::Small));
 }
 
 /// Pictures of one flight, evenly spaced; of several flights one from the middle of each.
-std::string pictures(Recordings recordings) {
+std::string pictures(Recordings recordings, const std::vector<std::string>& labels) {
     const bool is_one = recordings.size() == 1;
     const std::size_t max_shown = is_one ? 12 : 24;
     const int widest_px = is_one ? 640 : 320;
     std::vector<std::pair<fs::path, std::string>> all; ///< and captions
-    for (const LoadedRecording& recording : recordings) {
-        const std::vector<fs::path>& own = recording.pictures;
+    for (std::size_t r = 0; r < recordings.size(); ++r) {
+        const std::vector<fs::path>& own = recordings[r].pictures;
         for (std::size_t i = is_one ? 0 : own.size() / 2; i < own.size(); i += is_one ? 1 : own.size()) {
             const std::string name = own[i].filename().string();
-            all.emplace_back(own[i], is_one ? name : label_of(recordings, recording) + ", " + name);
+            all.emplace_back(own[i], is_one ? name : labels[r] + ", " + name);
         }
     }
     if (all.empty()) { return {}; }
@@ -511,30 +665,42 @@ NamedValues common_rows(Recordings recordings, NamedValues RunFile::*rows) {
     return common;
 }
 
-std::string page_title(Recordings recordings) {
-    return recordings.size() == 1 ? title_of(recordings.front())
-                                  : fmt::format("{} flights compared", recordings.size());
+std::string page_of_one(const LoadedRecording& recording, const ReportPageOptions& options) {
+    std::string html = page_head(title_of(recording), "Octant flight report");
+    for (const ResultTable& table : options.first_tables) { html += card_html(html_of(table)); }
+    const Recordings one(&recording, 1);
+    return html + overview(recording) + plots_of_one(recording) + pictures(one, labels_of(one)) +
+           statistics_table(recording) + slowest_frames(recording) + values_table("Results", result_rows(recording)) +
+           values_table("Settings", common_rows(one, &RunFile::settings)) +
+           values_table("Program and machine", common_rows(one, &RunFile::machine)) + page_end();
+}
+
+std::string page_of_several(Recordings recordings, const ReportPageOptions& options) {
+    const std::vector<std::string> labels = labels_of(recordings);
+    const Comparison comparison = comparison_of(recordings, options.flights, options.changes);
+    const std::vector<PlotSeries> curves = frame_time_curves(recordings, labels);
+    std::string html = page_head(fmt::format("{} flights compared", recordings.size()), "Octant flight report", true);
+    html +=
+        card_html(answer_html(comparison, options.changes) + (comparison.rows.empty() ? "" : matrix_html(comparison)));
+    for (const ResultTable& table : options.first_tables) {
+        html += card_html(html_of(table, {"sortable", max_html_rows}));
+    }
+    if (!comparison.rows.empty()) { html += changes_table(recordings, comparison); }
+    return html + page_curves(curves) + overlaid_plots(recordings, comparison, curves) +
+           runs_table(recordings, labels, options.folder) + plots_of_several(recordings, curves) +
+           pictures(recordings, labels) +
+           values_table("Settings that all have in common", common_rows(recordings, &RunFile::settings)) +
+           values_table("Program and machine that all have in common", common_rows(recordings, &RunFile::machine)) +
+           page_end();
 }
 
 } // namespace
 
-std::string html_report(
-    Recordings recordings, std::span<const ResultTable> first_tables, const std::filesystem::path& page_folder) {
-    const bool is_one = recordings.size() == 1;
-    std::string html = page_head(page_title(recordings), "Octant flight report", recordings.size() > 1);
-    for (const ResultTable& table : first_tables) { html += card_html(html_of(table)); }
-    if (recordings.empty()) { return html + page_end(); }
-    const LoadedRecording& first = recordings.front();
-    html += is_one ? overview(first) + plots_of_one(first)
-                   : runs_table(recordings, page_folder) + compared_flights(recordings) + plots_of_several(recordings);
-    html += pictures(recordings);
-    if (is_one) {
-        html += statistics_table(first) + slowest_frames(first) + values_table("Results", result_rows(first));
-    }
-    html += values_table(
-        is_one ? "Settings" : "Settings that all have in common", common_rows(recordings, &RunFile::settings));
-    html += values_table(is_one ? "Program and machine" : "Program and machine that all have in common",
-        common_rows(recordings, &RunFile::machine));
+std::string html_report(Recordings recordings, const ReportPageOptions& options) {
+    if (recordings.size() == 1) { return page_of_one(recordings.front(), options); }
+    if (!recordings.empty()) { return page_of_several(recordings, options); }
+    std::string html = page_head("No flights", "Octant flight report");
+    for (const ResultTable& table : options.first_tables) { html += card_html(html_of(table)); }
     return html + page_end();
 }
 

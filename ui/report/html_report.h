@@ -1,5 +1,6 @@
 #pragma once
 
+#include "ui/report/comparison.h"
 #include "ui/report/loaded_recording.h"
 #include "ui/report/table.h"
 
@@ -9,11 +10,17 @@
 
 namespace octant::ui::report {
 
+struct ReportPageOptions {
+    std::span<const ResultTable> first_tables = {}; ///< shown first, or below the answer of several recordings
+    std::filesystem::path folder = {};              ///< where the page will lie, for links
+    std::span<const ComparedFlight> flights = {};   ///< compared_flights() of the recordings; none: nothing is compared
+    std::span<const FlightChange> changes = {};     ///< flight_changes() of these flights
+};
+
 /// A self-contained page on one recording or on several. The page on one has its figures with their definitions, plots
-/// over simulated time with the path's legs, pictures, its slowest frames and why, settings and machine. `first_tables`
-/// come first. Nothing is fetched when it is read; its own script draws the plots. `page_folder` is where the page will
-/// lie, for links.
-std::string html_report(Recordings recordings, std::span<const ResultTable> first_tables = {},
-    const std::filesystem::path& page_folder = {});
+/// over simulated time with the path's legs, pictures, its slowest frames and why, settings and machine. The page on
+/// several begins with the answer, what changed against the baseline, and a matrix of variants and flights; changes one
+/// by one, plots and a table of all flights follow. Nothing is fetched when it is read; its own script draws the plots.
+std::string html_report(Recordings recordings, const ReportPageOptions& options = {});
 
 } // namespace octant::ui::report

@@ -41,6 +41,25 @@ std::string escaped(std::string_view text) {
     return out;
 }
 
+std::string script_string(std::string_view text) {
+    std::string json = "\"";
+    while (!text.empty()) {
+        const std::size_t length = utf8_length(text);
+        const auto byte = static_cast<unsigned char>(text.front());
+        if (length > 1) {
+            json += text.substr(0, length);
+        } else if (length == 0) {
+            json += replacement;
+        } else if (byte < 0x20 || byte == 0x7F || std::string_view("\"\\<&").find(text.front()) != std::string::npos) {
+            json += fmt::format("\\u{:04x}", byte);
+        } else {
+            json += text.front();
+        }
+        text.remove_prefix(std::max<std::size_t>(length, 1));
+    }
+    return json + "\"";
+}
+
 std::string url_text(std::string_view path) {
     constexpr std::string_view plain = "-._~/";
     std::string text;
@@ -79,11 +98,13 @@ body {
 }
 main { max-width: 1180px; margin: 0 auto; }
 main.wide { max-width: 1800px; }
-h1 { font-size: 1.75rem; line-height: 1.2; margin: 0 0 .25rem; }
+h1 { font-size: 1.75rem; line-height: 1.2; margin: 0 0 .25rem; overflow-wrap: anywhere; }
 h2 { font-size: 1.15rem; margin: 2.2rem 0 .7rem; }
 h3 { font-size: 1rem; margin: 0 0 .5rem; overflow-wrap: anywhere; }
 .lead, .note, figcaption { color: var(--soft); }
 .lead { margin: 0; }
+.answer { font-size: 1.3rem; font-weight: 650; line-height: 1.35; margin: 0 0 .6rem; overflow-wrap: anywhere; }
+:focus-visible { outline: 3px solid var(--accent); outline-offset: 2px; }
 .note { font-size: .87rem; margin: .5rem 0 0; }
 .card {
   background: var(--card); border: 1px solid var(--line); border-radius: 10px; padding: 1rem 1.1rem;
@@ -122,27 +143,40 @@ header { margin-bottom: 1rem; }
   font-size: .8rem; background: var(--ink); color: var(--card);
 }
 .scroll { overflow-x: auto; }
-table { border-collapse: collapse; width: 100%; font-size: .9rem; }
-th, td { text-align: left; padding: .32rem .8rem .32rem 0; border-bottom: 1px solid var(--line); vertical-align: baseline; overflow-wrap: anywhere; }
+.scroll.tall { max-height: 85vh; overflow: auto; }
+table { border-collapse: separate; border-spacing: 0; width: 100%; font-size: .9rem; }
+th, td { text-align: left; padding: .32rem .8rem .32rem 0; border-bottom: 1px solid var(--line); vertical-align: baseline; }
+td { overflow-wrap: anywhere; }
 th { color: var(--soft); font-weight: 600; }
 tbody tr:last-child td { border-bottom: 0; }
+td:not(.number) { min-width: 6rem; }
 td:first-child:not(.number) { min-width: 9rem; width: 22%; }
-
-.number { text-align: right; padding-right: 1.6rem; font-variant-numeric: tabular-nums; white-space: nowrap; }
-table.sortable th { cursor: pointer; white-space: normal; }
-table.sortable th[aria-sort=ascending]::after { content: " \25B2"; }
-table.sortable th[aria-sort=descending]::after { content: " \25BC"; }
-table.runs { width: auto; }
-table.runs th { overflow-wrap: normal; }
-table.runs td { white-space: nowrap; overflow-wrap: normal; }
-table.runs td:first-child { width: auto; min-width: 13rem; white-space: normal; overflow-wrap: anywhere; }
-table.runs .number { padding-right: 1.6rem; }
+td.definition { min-width: 14rem; }
+.number { text-align: right; padding-right: 1.2rem; font-variant-numeric: tabular-nums; white-space: nowrap; }
+th.number { white-space: normal; }
+td.slower, td.faster, td.no-change, td.unknown { white-space: nowrap; font-variant-numeric: tabular-nums; }
+table.sortable th, table.sortable th:first-child, table.sortable td:first-child { background: var(--card); position: sticky; }
+table.sortable th { top: 0; z-index: 1; }
+table.sortable th:first-child, table.sortable td:first-child { left: 0; }
+table.sortable th:first-child { z-index: 2; }
+th button { font: inherit; color: inherit; text-align: inherit; background: none; border: 0; padding: 0; cursor: pointer; }
+th[aria-sort=ascending] button::after { content: " \2191"; }
+th[aria-sort=descending] button::after { content: " \2193"; }
+.filter { display: flex; flex-wrap: wrap; gap: .2rem .8rem; align-items: center; margin-bottom: .5rem; font-size: .87rem; }
+.filter input {
+  font: inherit; color: inherit; background: var(--page); border: 1px solid var(--soft); border-radius: 6px;
+  padding: .2rem .5rem; width: 16rem; max-width: 100%;
+}
+table.runs { width: auto; font-size: .85rem; }
+table.runs td, table.runs td:not(.number) { white-space: nowrap; min-width: 0; }
+table.runs td:first-child:not(.number) { width: auto; min-width: 10rem; white-space: normal; }
 .card h3 { margin-top: .6rem; }
 .card > h3:first-child, .small-plots h3 { margin-top: 0; }
 a { color: var(--accent); }
-td.soft { color: var(--soft); }
-.better { color: var(--good); }
-.worse { color: var(--bad); }
+td.soft, .no-change, .unknown { color: var(--soft); }
+.faster { color: var(--good); }
+.slower, .worse { color: var(--bad); }
+.slower, .faster { font-weight: 650; }
 td.definition { color: var(--soft); }
 .code { font: .86em ui-monospace, "DejaVu Sans Mono", Menlo, Consolas, monospace; overflow-wrap: anywhere; }
 .sheet { display: grid; gap: .8rem; grid-template-columns: repeat(auto-fill, minmax(240px, 1fr)); }
@@ -151,19 +185,50 @@ figure img { display: block; width: 100%; height: auto; border-radius: 6px; bord
 figcaption { font-size: .8rem; padding-top: .2rem; overflow-wrap: anywhere; }
 .note + .sheet { margin-top: .8rem; }
 .missing { border: 1px dashed var(--line); border-radius: 6px; padding: 1rem; }
+.print-only { display: none; }
 @media (max-width: 800px) {
   .plots { grid-template-columns: minmax(0, 1fr); }
+  .card { padding: .8rem; }
+  td:first-child:not(.number) { min-width: 6.5rem; }
+  td.definition { min-width: 9.5rem; }
+  table.sortable td:first-child:not(.number) { min-width: 9rem; max-width: 12rem; }
 }
 @media print {
-  :root { --page: #fff; --card: #fff; --ink: #000; --soft: #444; --line: #bbb; }
+  :root {
+    color-scheme: light; --page: #fff; --card: #fff; --ink: #000; --soft: #444; --line: #bbb; --accent: #1d4ed8;
+    --bad: #b91c1c; --bad-back: #fff; --good: #15803d; --good-back: #fff;
+  }
+  @page { size: A4; margin: 12mm; }
+  @page wide { size: A4 landscape; margin: 10mm; }
+  main.wide { page: wide; }
+  main, main.wide { max-width: none; }
   body { padding: 0; font-size: 10pt; }
-  .card, figure, tr { break-inside: avoid; }
-  .sheet { grid-template-columns: repeat(4, 1fr); }
-  h2 { break-after: avoid; }
+  .card { border: 0; padding: 0; }
+  .card, .scroll, .scroll.tall, .plots { overflow: visible; max-height: none; }
+  .plot, figure, tr, h3 { break-inside: avoid; }
+  h2, h3, .answer { break-after: avoid; }
+  thead { display: table-header-group; break-inside: avoid; }
+  table { font-size: 8pt; }
+  table.runs { font-size: 7pt; width: 100%; }
+  th, td, .number, table.runs td, table.runs td:not(.number), td[class] { white-space: normal; padding-right: 1.5mm; }
+  td, td:not(.number), td:first-child:not(.number), td.definition, table.sortable td:first-child:not(.number) { min-width: 0; max-width: none; overflow-wrap: anywhere; }
+  th button { display: contents; } /* heads with buttons are not repeated on each sheet */
+  table.runs td:not(.number) { min-width: 12mm; }
+  table.runs td:first-child:not(.number) { min-width: 22mm; }
+  table.sortable th, table.sortable th:first-child, table.sortable td:first-child { position: static; }
+  .plots { display: block; }
+  .wide .plots { display: grid; grid-template-columns: repeat(2, minmax(0, 1fr)); gap: 3mm; }
+  .plots .card { margin-bottom: 4mm; }
+  .plot svg { width: 100%; height: auto; }
+  .small-plots { grid-template-columns: repeat(4, minmax(0, 1fr)); gap: 3mm; }
+  .sheet { grid-template-columns: repeat(4, minmax(0, 1fr)); }
+  .filter, .tall tbody tr:nth-child(n+501), .tall .plot:nth-of-type(n+61) { display: none; }
+  .print-only { display: block; }
 }
 )css";
 
-/// Draws a page's plots, with values under the pointer and zoom by dragging, and sorts its tables. Refers to nothing
+/// Draws a page's plots when they come into view, with values under the pointer and zoom by dragging; sorts and filters
+/// its tables; makes the rows of long tables and the plots of long lists while the reader scrolls. Refers to nothing
 /// outside the page.
 constexpr std::string_view drawing_script = R"js(
 "use strict";
@@ -209,13 +274,21 @@ function ends(plot, key, low) {
   if (least > most) return [0, 1];
   return least === most ? [least - 0.5, most + 0.5] : [least, most];
 }
+function described(plot, xs, ys) {
+  const range = ([from, to]) => `${shown(from)} to ${shown(to)}`;
+  const axis = (name, ends, log) => `${name || "no unit"}${log ? ", logarithmic" : ""}, ${range(ends)}`;
+  return `Upwards: ${axis(plot.y, ys, plot.log)}. To the right: ${axis(plot.x, xs, plot.xlog)}. ` +
+    plot.series.filter(s => s.x.length).map(s => `${s.n || "Values"}: ${range(ends({series: [s]}, "y", false))}.`).join(" ");
+}
+let paper = Infinity; // width of a plot that is printed, so that its text can be read
 function draw(box) {
   const plot = box.plot, small = box.classList.contains("small");
-  const width = Math.max(160, box.clientWidth), height = Number(box.dataset.height);
+  const width = Math.max(160, Math.min(paper, box.clientWidth)), height = Number(box.dataset.height);
   const left = small ? 42 : 66, right = 12, top = plot.marks.length ? 30 : 10, bottom = small ? 22 : 40;
   box.querySelectorAll("svg").forEach(old => old.remove());
+  const id = "c" + (draw.count = (draw.count || 0) + 1);
   const svg = node("svg", {width, height, viewBox: `0 0 ${width} ${height}`, role: "img",
-    "aria-label": box.querySelector("h3").textContent}, box);
+    "aria-label": box.querySelector("h3").textContent, "aria-describedby": id + "d"}, box);
   const [xa, xb] = ends(plot, "x", false), [ya, yb] = ends(plot, "y", true);
   const half = plot.series.some(s => s.s === "bars") ? plot.bar / 2 : 0;
   const x0 = box.zoom ? box.zoom[0] : plot.x0 ?? (plot.xlog ? xa / 1.1 : xa - half);
@@ -225,7 +298,7 @@ function draw(box) {
   const part = (v, from, to, log) => log ? Math.log(Math.max(v, from) / from) / Math.log(to / from) : (v - from) / (to - from);
   const px = x => left + part(x, x0, x1, plot.xlog) * (width - left - right);
   const py = y => height - bottom - part(y, y0, y1, plot.log) * (height - top - bottom);
-  const id = "c" + (draw.count = (draw.count || 0) + 1);
+  node("desc", {id: id + "d"}, svg, described(plot, [x0, x1], [y0, y1]));
   node("rect", {x: left, y: top, width: width - left - right, height: height - top - bottom},
     node("clipPath", {id}, node("defs", {}, svg)));
   for (const v of plot.log ? powers(y0, y1) : steps(y0, y1, Math.max(2, (height - top - bottom) / 42))) {
@@ -342,34 +415,168 @@ function listen(box, svg, at) {
     tip.style.top = e.pageY + 14 + "px";
   });
 }
-function sortable(table) {
-  table.querySelectorAll("thead th").forEach((head, column) => {
-    head.tabIndex = 0;
-    const sort = () => {
-      const up = head.getAttribute("aria-sort") !== "ascending";
-      table.querySelectorAll("thead th").forEach(other => other.removeAttribute("aria-sort"));
-      head.setAttribute("aria-sort", up ? "ascending" : "descending");
-      const body = table.tBodies[0];
-      const key = row => row.cells[column].dataset.key ?? row.cells[column].textContent.trim();
-      const rows = Array.from(body.rows);
-      rows.sort((a, b) => {
-        const one = key(a), two = key(b), n = Number(one), m = Number(two);
-        const order = one !== "" && two !== "" && !isNaN(n) && !isNaN(m) ? n - m : one.localeCompare(two, "en", {numeric: true});
-        return up ? order : -order;
-      });
-      rows.forEach(row => body.appendChild(row));
-    };
-    head.addEventListener("click", sort);
-    head.addEventListener("keydown", e => { if (e.key === "Enter") sort(); });
-  });
+function element(name, attributes, parent, text) {
+  const made = document.createElement(name);
+  for (const key in attributes) made.setAttribute(key, attributes[key]);
+  if (text !== undefined) made.textContent = text;
+  if (parent) parent.appendChild(made);
+  return made;
 }
-const boxes = Array.from(document.querySelectorAll(".plot[data-height]"));
-for (const box of boxes) box.plot = JSON.parse(box.querySelector("script").textContent);
-const drawAll = () => boxes.forEach(draw);
-drawAll();
+// Calls more() each time when the end of a scrolled box comes near, as long as that returns true.
+function whenReached(box, more) {
+  const end = element("div", {style: "height: 1px"}, box);
+  const watch = new IntersectionObserver(found => {
+    if (!found.some(each => each.isIntersecting) || !more()) return;
+    watch.unobserve(end);
+    watch.observe(end);
+  }, {root: box, rootMargin: "800px"});
+  watch.observe(end);
+}
+const beforePrint = []; // makes what is printed without having been in view
+const printedRows = 500, printedPlots = 60;
+const signs = {slower: "\u25B2", faster: "\u25BC", "no-change": "=", unknown: "?"};
+function rowOf(cells, classes) {
+  const row = document.createElement("tr");
+  cells.forEach((cell, i) => {
+    const [text, look, link] = typeof cell === "string" ? [cell] : cell;
+    const made = element("td", {class: [classes[i], look].filter(Boolean).join(" ")}, row);
+    if (signs[look]) { element("span", {role: "img", "aria-label": look}, made, signs[look]); made.append(" "); }
+    if (link) element("a", {href: link}, made, text); else made.append(text);
+  });
+  return row;
+}
+function sortable(table) {
+  const box = table.parentNode, body = table.tBodies[0], heads = Array.from(table.querySelectorAll("thead th"));
+  const json = box.querySelector("script"), data = json && JSON.parse(json.textContent);
+  const text = cell => typeof cell === "string" ? cell : cell[0];
+  const rows = data ? data.rows.map(cells => ({cells: cells.map(text), make: () => rowOf(cells, data.classes)}))
+    : Array.from(body.rows).map(row => ({cells: Array.from(row.cells).map(cell => cell.textContent.trim()), row}));
+  const step = data ? 100 : rows.length;
+  let order = rows, made = body.rows.length;
+  const more = count => {
+    const part = document.createDocumentFragment();
+    for (; count > 0 && made < order.length; --count, ++made) part.appendChild(order[made].row ??= order[made].make());
+    body.appendChild(part);
+    return made < order.length;
+  };
+  let sorted = null, words = [];
+  const status = rows.length > 20 ? filterOf(box, rows.length, typed => { words = typed; show(); }) : null;
+  function show() {
+    order = rows.filter(row => words.every(word => (row.all ??= row.cells.join("\n").toLowerCase()).includes(word)));
+    if (sorted) order = inOrder(order, sorted);
+    made = 0;
+    body.replaceChildren();
+    more(step);
+    box.scrollTop = 0;
+    if (status) status(order.length);
+  }
+  heads.forEach((head, column) => {
+    const button = element("button", {type: "button"}, null, head.textContent);
+    head.replaceChildren(button);
+    button.addEventListener("click", () => {
+      const up = head.getAttribute("aria-sort") !== "ascending";
+      heads.forEach(other => other.removeAttribute("aria-sort"));
+      head.setAttribute("aria-sort", up ? "ascending" : "descending");
+      sorted = {column, up};
+      show();
+    });
+  });
+  if (!data) return;
+  whenReached(box, () => more(step));
+  beforePrint.push(() => more(printedRows - made));
+}
+// Numbers by value where all cells of the column are numbers, with a mark before or a unit behind; else as text.
+function inOrder(rows, {column, up}) {
+  const number = /^(?:[\u25B2\u25BC=?] )?([+-]?\d+(?:\.\d+)?)(?: .*)?$/;
+  const filled = rows.filter(row => row.cells[column] !== ""), numeric = filled.every(row => number.test(row.cells[column]));
+  const compare = new Intl.Collator("en", {numeric: true}).compare;
+  const key = row => numeric ? Number(number.exec(row.cells[column])[1]) : row.cells[column];
+  const keyed = filled.map(row => [key(row), row]);
+  keyed.sort(numeric ? (a, b) => a[0] - b[0] : (a, b) => compare(a[0], b[0]));
+  if (!up) keyed.reverse();
+  return keyed.map(pair => pair[1]).concat(rows.filter(row => row.cells[column] === ""));
+}
+// A field that filters rows by words, above a table; returns what tells how many are left.
+function filterOf(box, count, use) {
+  const line = element("div", {class: "filter"});
+  const label = element("label", {}, line, "Rows with the words ");
+  const field = element("input", {type: "search"}, label);
+  const told = element("span", {"aria-live": "polite"}, line, `${count} rows`);
+  field.addEventListener("input", () => use(field.value.toLowerCase().split(/\s+/).filter(Boolean)));
+  box.before(line);
+  return left => { told.textContent = left === count ? `${count} rows` : `${left} of ${count} rows`; };
+}
+let curveList = null;
+function curve(index) {
+  curveList ??= JSON.parse(document.getElementById("curves").textContent);
+  return curveList[index];
+}
+// Boxes of a list of plots, which have their curves in common.
+function plotList(box) {
+  const data = JSON.parse(box.querySelector("script").textContent), inside = box.querySelector(".many");
+  let made = 0;
+  const more = count => {
+    for (; count > 0 && made < data.plots.length; --count, ++made) {
+      const own = data.plots[made];
+      const plot = Object.assign({}, data.common, own);
+      const plotBox = element("div", {class: "plot" + data.look, "data-height": data.height}, inside);
+      element("h3", {}, plotBox, own.title ?? curve(own.series[0].k).n);
+      if (data.look !== " small") keyOf(plot, plotBox);
+      plotBox.style.minHeight = data.height + 24 + "px";
+      plotBox.find = () => ({...plot, series: plot.series.map(s => ({...curve(s.k), ...s}))});
+      watched.observe(plotBox);
+    }
+    return made < data.plots.length;
+  };
+  more(24);
+  whenReached(box, () => more(24));
+  beforePrint.push(() => more(printedPlots - made));
+}
+function keyOf(plot, box) {
+  const key = element("div", {class: "key"}, box);
+  for (const s of plot.series) {
+    const entry = element("span", {}, key);
+    element("i", {style: "background:" + s.c}, entry);
+    entry.append(curve(s.k).n);
+  }
+}
+const watched = new IntersectionObserver(found => {
+  for (const each of found) if (each.isIntersecting) drawSeen(each.target);
+}, {rootMargin: "400px"});
+function drawSeen(box) {
+  watched.unobserve(box);
+  box.plot ??= box.find();
+  draw(box);
+}
+const boxes = () => Array.from(document.querySelectorAll(".plot[data-height]"));
+for (const box of boxes()) {
+  box.find = () => JSON.parse(box.querySelector("script").textContent);
+  box.style.minHeight = Number(box.dataset.height) + 24 + "px";
+  watched.observe(box);
+}
+document.querySelectorAll(".plot-list").forEach(plotList);
 document.querySelectorAll("table.sortable").forEach(sortable);
-let waiting = 0;
-addEventListener("resize", () => { clearTimeout(waiting); waiting = setTimeout(drawAll, 100); });
+// Whoever has no pointer scrolls with the arrow keys.
+const focusable = () => document.querySelectorAll(".scroll").forEach(box => {
+  if (box.scrollWidth > box.clientWidth + 1 || box.scrollHeight > box.clientHeight + 1) box.tabIndex = 0;
+});
+focusable();
+addEventListener("beforeprint", () => {
+  beforePrint.forEach(make => make());
+  paper = 700;
+  boxes().forEach(drawSeen);
+});
+addEventListener("afterprint", () => {
+  paper = Infinity;
+  boxes().forEach(drawSeen);
+});
+let waiting = 0, wide = innerWidth;
+addEventListener("resize", () => {
+  if (innerWidth === wide) return;
+  wide = innerWidth;
+  clearTimeout(waiting);
+  waiting = setTimeout(() => { boxes().forEach(box => watched.observe(box)); focusable(); }, 100);
+});
 )js";
 
 } // namespace

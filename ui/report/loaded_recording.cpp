@@ -133,4 +133,16 @@ LoadedRecording load_recording(const fs::path& folder_or_file) {
     return recording;
 }
 
+std::vector<LoadedRecording> load_recordings(std::span<const fs::path> folders_or_zips) {
+    std::vector<LoadedRecording> recordings;
+    recordings.reserve(folders_or_zips.size());
+    for (const fs::path& each : folders_or_zips) {
+        recordings.push_back(load_recording(each));
+        if (folders_or_zips.size() == 1) { break; }
+        recordings.back().flight.keep_frame_times(max_curve_pieces(folders_or_zips.size()));
+        recordings.back().slowest = {};
+    }
+    return recordings;
+}
+
 } // namespace octant::ui::report

@@ -46,4 +46,8 @@ std::optional<long> picture_frame(std::string_view name);
 /// these or is damaged.
 LoadedRecording load_recording(const std::filesystem::path& folder_or_file);
 
+/// Reads recordings in this order. Where there are several, each keeps only what a page of several shows
+/// (FlightAccumulator::keep_frame_times), so that ten thousand fit into memory. Throws Error as load_recording().
+std::vector<LoadedRecording> load_recordings(std::span<const std::filesystem::path> folders_or_zips);
+
 } // namespace octant::ui::report

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstddef>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -22,6 +24,7 @@ struct PlotSeries {
     std::vector<double> x = {};
     std::vector<double> y = {}; ///< as many as `x`; what is not finite is a gap
     std::vector<double> y_low = {};
+    std::optional<std::size_t> shared_curve = {}; ///< index in page_curves(), in place of name, `x` and `y`
 };
 
 /// A level line across a plot.
@@ -60,7 +63,18 @@ enum class PlotWidth {
 };
 
 /// A plot for a page: its title, key and numbers, which the script of html_text.h draws at the size that it finds.
-/// Numbers have five significant digits.
+/// Numbers have five significant digits. Readers without script have its static_picture_html().
 std::string page_plot(const Plot& plot, PlotWidth width);
+
+/// Curves that plots of page_plot_list() share: their names and points, once in a page.
+std::string page_curves(std::span<const PlotSeries> curves);
+
+/// Many plots, all of whose series are among these shared curves. The script makes them while the reader scrolls, so
+/// that a page of ten thousand opens at once. A plot without a title has the name of its first curve. Readers without
+/// script have pictures of the first ones.
+std::string page_plot_list(std::span<const Plot> plots, std::span<const PlotSeries> curves, PlotWidth width);
+
+/// The picture of a plot with its title for readers without script; empty where there is none.
+std::string static_picture_html(const Plot& plot);
 
 } // namespace octant::ui::report

@@ -7,6 +7,7 @@
 #include <array>
 #include <cassert>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 namespace octant::ui::report {
 
@@ -21,11 +22,68 @@ std::string opened(std::string_view element, bool is_number, std::string_view cs
     return classes.empty() ? fmt::format("<{}>", element) : fmt::format("<{} class=\"{}\">", element, classes);
 }
 
+/// What stands before a cell's text, so that its colour is not all that tells.
+std::string mark_html(std::string_view css_class) {
+    constexpr std::array marks{std::pair{"slower", "\u25B2"}, std::pair{"faster", "\u25BC"},
+        std::pair{"no-change", "="}, std::pair{"unknown", "?"}};
+    for (const auto& [name, mark] : marks) {
+        if (css_class == name) { return fmt::format("<span role=\"img\" aria-label=\"{}\">{}</span> ", name, mark); }
+    }
+    return {};
+}
+
 std::string cell_html(const Cell& cell, bool aligns_numbers) {
-    const std::string text = escaped(cell.text);
+    const std::string text = mark_html(cell.css_class) + escaped(cell.text);
     const std::string linked =
         cell.link.empty() ? text : fmt::format("<a href=\"{}\">{}</a>", escaped(cell.link), text);
     return opened("td", aligns_numbers && is_number(cell), cell.css_class) + linked + "</td>";
+}
+
+/// A cell for the script: its text, or text, class and link. Classes that all cells of a column have are the column's.
+std::string cell_json(const Cell& cell, std::string_view column_class) {
+    const std::string_view own = cell.css_class == column_class ? std::string_view() : cell.css_class;
+    const std::string text = script_string(cell.text);
+    if (own.empty() && cell.link.empty()) { return text; }
+    return fmt::format("[{},{},{}]", text, script_string(own), script_string(cell.link));
+}
+
+/// All rows of a table for the script, and the classes that all cells of a column have.
+std::string rows_json(const ResultTable& table) {
+    std::vector<std::string> column_classes;
+    std::string classes;
+    for (std::size_t i = 0; i < table.header.size(); ++i) {
+        const Cell& first = table.rows.front()[i];
+        const bool is_common =
+            std::ranges::all_of(table.rows, [&](const auto& row) { return row[i].css_class == first.css_class; });
+        column_classes.push_back(is_common ? first.css_class : std::string());
+        classes += fmt::format("{}\"{} {}\"", i == 0 ? "" : ",", is_number(first) ? "number" : "", column_classes[i]);
+    }
+    std::string rows;
+    for (const auto& row : table.rows) {
+        rows += rows.empty() ? "[" : ",\n[";
+        for (std::size_t i = 0; i < row.size(); ++i) {
+            rows += (i == 0 ? "" : ",") + cell_json(row[i], column_classes[i]);
+        }
+        rows += "]";
+    }
+    return fmt::format("{{\"classes\":[{}],\"rows\":[{}]}}", classes, rows);
+}
+
+/// Where the rows are that a reader without script, or of paper, does not see. `shown`: rows that are HTML.
+std::string left_out_html(std::size_t shown, std::size_t rows) {
+    constexpr std::size_t max_printed_rows = 500; // as the page's style sheet and script have it
+    constexpr std::string_view elsewhere = "A sweep's sweep.csv and octant report --json have all of them.";
+    std::string html;
+    if (shown < rows) {
+        html += fmt::format("<noscript><p class=\"note\">The first {} of {} rows: the page's script makes the others. "
+                            "{}</p></noscript>\n",
+            shown, rows, elsewhere);
+    }
+    if (rows > max_printed_rows) {
+        html += fmt::format("<p class=\"note print-only\">The first {} of {} rows are printed. {}</p>\n",
+            max_printed_rows, rows, elsewhere);
+    }
+    return html;
 }
 
 std::string head_html(const ResultTable& table) {
@@ -101,19 +159,26 @@ void ResultTable::add(std::vector<Cell> row) {
     rows.push_back(std::move(row));
 }
 
-std::string html_of(const ResultTable& table, std::string_view table_class) {
+std::string html_of(const ResultTable& table, const TableLook& look) {
+    constexpr std::size_t max_low_rows = 30; // more of them scroll in a box of their own
     std::string html;
     if (!table.title.empty()) { html += "<h3>" + escaped(table.title) + "</h3>\n"; }
-    html += "<div class=\"scroll\">" + opened("table", false, table_class) + "\n";
+    const bool is_sortable = look.css_class.find("sortable") != std::string_view::npos;
+    const std::size_t shown = std::min(table.rows.size(), look.max_html_rows);
+    html += fmt::format("<div class=\"scroll{}\">", is_sortable && table.rows.size() > max_low_rows ? " tall" : "");
+    html += opened("table", false, look.css_class) + "\n";
     const bool is_named = std::ranges::any_of(table.header, [](const std::string& name) { return !name.empty(); });
     if (is_named) { html += head_html(table); }
     html += "<tbody>\n";
-    for (const auto& row : table.rows) {
+    for (const auto& row : std::span(table.rows).first(shown)) {
         html += "<tr>";
         for (const Cell& cell : row) { html += cell_html(cell, is_named); }
         html += "</tr>\n";
     }
-    html += "</tbody></table></div>\n";
+    html += "</tbody></table>";
+    if (shown < table.rows.size()) { html += "<script type=\"application/json\">" + rows_json(table) + "</script>"; }
+    html += "</div>\n";
+    if (is_sortable) { html += left_out_html(shown, table.rows.size()); }
     if (!table.note.empty()) { html += note_html(table.note); }
     return html;
 }

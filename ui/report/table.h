@@ -3,6 +3,7 @@
 #include "ui/base/json_value.h"
 
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <fmt/format.h>
 #include <limits>
@@ -44,9 +45,18 @@ struct ResultTable {
     void add(std::vector<Cell> row);
 };
 
+/// How html_of() writes a table.
+struct TableLook {
+    std::string_view css_class = {}; ///< "sortable" for buttons in its head and, above 20 rows, a filter
+    /// Of a sortable table that has more rows, the first ones are HTML and all are data, of which the page's script
+    /// makes rows while the reader scrolls.
+    std::size_t max_html_rows = std::numeric_limits<std::size_t>::max();
+};
+
 /// Title, table and note as HTML, all text escaped. Cells that are numbers are aligned right. A table whose columns
-/// have no names, such as one of names and values, has no head and is aligned left. `table_class`: of the style sheet.
-std::string html_of(const ResultTable& table, std::string_view table_class = {});
+/// have no names, such as one of names and values, has no head and is aligned left. Cells of the classes slower,
+/// faster, no-change and unknown have a mark before their text.
+std::string html_of(const ResultTable& table, const TableLook& look = {});
 
 /// A table as comma-separated text: header, rows; cells with commas in quotes.
 std::string csv_of(const ResultTable& table);

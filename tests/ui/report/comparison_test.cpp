@@ -110,6 +110,9 @@ TEST_CASE("the baseline is the first variant given, or the one that is asked for
         CHECK(variants[0].runs == std::vector<std::size_t>{1});
         CHECK(variants[1].runs == std::vector<std::size_t>{0});
     }
+    const std::vector two{run_of("turn", "paper", 1.0), run_of("turn", "exact", 1.0), run_of("pop-up", "paper", 1.0),
+        run_of("pop-up", "exact", 1.0)};
+    CHECK(compared_flights(two, role_of_setting, "turn-exact")[1].variants[0].runs == std::vector<std::size_t>{3});
     CHECK_THROWS_WITH(compared_flights(runs, role_of_setting, "fast"),
         "--baseline: expected one of the recordings or the name of a variant such as 'order-method paper', got 'fast'");
 }

@@ -215,9 +215,10 @@ TEST_CASE("captures of other applications and recordings of Octant are not the s
     write_file(scratch / "b.csv", presentmon_1 + "b.exe,1,0x1,DXGI,0,0,0,0,0.1,16\n");
     record_frames(scratch / "rec", made_up_frames(4, 2.0));
     const LoadedRecording a = load_recording(scratch / "a.csv");
-    CHECK(settings_that_differ(a, a).empty());
-    CHECK(settings_that_differ(a, load_recording(scratch / "b.csv")) == std::vector<std::string>{"application"});
-    const auto differ = settings_that_differ(a, load_recording(scratch / "rec"));
+    const SettingRoles roles = [](std::string_view) { return SettingRole::Scene; };
+    CHECK(flight_differences(a, a, roles).empty());
+    CHECK(flight_differences(a, load_recording(scratch / "b.csv"), roles) == std::vector<std::string>{"application"});
+    const auto differ = flight_differences(a, load_recording(scratch / "rec"), roles);
     CHECK(std::ranges::count(differ, "application") == 1);
 }
 

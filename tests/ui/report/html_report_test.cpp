@@ -1,5 +1,6 @@
 #include "sim/base/output_file.h"
 #include "tests/ui/report/scratch.h"
+#include "ui/report/comparison.h"
 #include "ui/report/flight_accumulator.h"
 #include "ui/report/html_report.h"
 #include "ui/report/html_text.h"
@@ -38,6 +39,32 @@ std::size_t count_of(const std::string& text, const std::string& what) {
     return count;
 }
 
+SettingRole role_on_page(std::string_view name) {
+    return name == "rate" || name == "path" ? SettingRole::Scene : SettingRole::Drawing;
+}
+
+/// The page with what frames.csv of the recordings says of their changes.
+std::string compared_page(Recordings recordings) {
+    const auto flights = compared_flights(recordings, &role_on_page);
+    const auto changes = flight_changes(recordings, flights, &role_on_page);
+    return html_report(recordings, {.flights = flights, .changes = changes});
+}
+
+/// A change of so many percent, certain where `p` is small.
+FlightChange made_change(double percent, double p) {
+    FlightChange change;
+    change.old_variant = "the old one";
+    change.new_variant = "the <new> one";
+    const double estimate = std::log1p(percent / 100.0);
+    change.frames.change = Change{estimate, estimate - 0.01, estimate + 0.01, p};
+    change.frames.frames = 28;
+    change.frames.old_runs = 3;
+    change.frames.new_runs = 4;
+    change.frames.old_ms = 10.0;
+    change.adjusted_p = p;
+    return change;
+}
+
 FlightAccumulator digest_of(const std::vector<FrameRecord>& records) {
     FlightAccumulator digest;
     for (const FrameRecord& record : records) { digest.add(record); }
@@ -69,7 +96,7 @@ TEST_CASE("a page shows a flight whole, fetches nothing and lets no text through
     const std::vector recordings{made_up_recording(scratch / "one", "<b>flight</b>", 5.0)};
     std::vector<ResultTable> first_tables(1);
     first_tables[0].add({{"x", "<i>"}});
-    const std::string page = html_report(recordings, first_tables);
+    const std::string page = html_report(recordings, {.first_tables = first_tables});
     CHECK_THAT(page, Catch::StartsWith("<!DOCTYPE html>"));
     CHECK_THAT(page, Contains("<h1>&lt;b&gt;flight&lt;/b&gt;</h1>"));
     CHECK_THAT(page, Contains("&lt;script&gt;&amp;"));
@@ -85,7 +112,7 @@ TEST_CASE("a page shows a flight whole, fetches nothing and lets no text through
     CHECK_THAT(page, Contains("draw by 25.00 ms"));
     CHECK_THAT(page, Contains("0000000000000aaa"));
     CHECK_THAT(page, Contains("<td>rate</td><td class=\"code\">60</td>")); // left, as all values
-    CHECK(html_report(recordings, first_tables) == page);
+    CHECK(html_report(recordings, {.first_tables = first_tables}) == page);
 }
 
 TEST_CASE("the slowest frames of a flight are shown by their own pictures") {
@@ -114,48 +141,135 @@ TEST_CASE("several flights stand in a table, and those of the same flight are co
     std::vector recordings{
         made_up_recording(scratch / "one", "first", 5.0), made_up_recording(scratch / "two", "second", 7.0)};
     recordings[1].run.settings[0].second = "other";
-    std::string page = html_report(recordings);
+    std::string page = compared_page(recordings);
     CHECK_THAT(page, Contains("2 flights compared"));
     CHECK_THAT(page, Contains("<th>note</th>"));
     CHECK_THAT(page, !Contains("rate</th>"));
-    CHECK_THAT(page, Contains("<td>+23.5 %</td>")); // 8.5 to 10.5; too few runs to judge
+    CHECK_THAT(page, Contains("<p class=\"answer\">? cannot tell"));
+    CHECK_THAT(page, Contains("<p>note other, compared with note &lt;script&gt;&amp;.</p>"));
+    CHECK_THAT(page, Contains("<td class=\"unknown\"><span role=\"img\" aria-label=\"unknown\">?</span> +"));
+    CHECK_THAT(page, Contains("<td class=\"number\">1+1</td>") || Contains("<td>1+1</td>"));
+    CHECK(page.find("class=\"answer\"") < page.find("sortable matrix"));
+    CHECK(page.find("sortable matrix") < page.find("sortable runs"));
     CHECK(count_of(page, "data:image/png;base64,") == 2);
-    CHECK(count_of(page, "class=\"plot small\"") == 2);
+    CHECK(count_of(page, "{\"k\":") == 2 + 2); // both in one plot, and each in its own
     recordings[1].run.settings[1].second = "20";
-    page = html_report(recordings);
+    page = compared_page(recordings);
     CHECK_THAT(page, Contains("rate</th>"));
-    CHECK_THAT(page, Contains("No two of these recordings are of the same flight"));
+    CHECK_THAT(page, Contains("Nothing is compared: no two recordings are of the same flight"));
     CHECK_THAT(page, !Contains("%</td>"));
     recordings[1].name = "one";
     CHECK_THAT(html_report(recordings), Contains((scratch / "two").string()));
     write_file(scratch / "two/report.html", "its own");
-    CHECK_THAT(html_report(recordings, {}, scratch.path()), Contains("<a href=\"two/report.html\">"));
+    CHECK_THAT(html_report(recordings, {.folder = scratch.path()}), Contains("<a href=\"two/report.html\">"));
 }
 
-TEST_CASE("a change that repeats bear out is marked, and a long study stays small") {
+TEST_CASE("a certain change is marked, and a long study stays small") {
     const ScratchFolder scratch;
     const LoadedRecording base = made_up_recording(scratch / "one", "first", 5.0);
     std::vector<LoadedRecording> recordings;
     for (int i = 0; i < 200; ++i) {
         recordings.push_back(base);
         recordings.back().name = "run-" + std::to_string(i);
-        const double more = (i % 2 == 0 ? 0.0 : 1.0) + 0.01 * (i % 7);
         recordings.back().run.settings[0].second = i % 2 == 0 ? "old" : "new";
-        recordings.back().statistics.p50_ms += more;
     }
-    const std::string page = html_report(recordings);
-    CHECK_THAT(page, Contains("<td class=\"worse\">+11.7 % ("));
-    CHECK_THAT(page, Contains("12 of 200 runs"));
-    const std::size_t overlaid = page.find("Frame time of each run");
+    const auto flights = compared_flights(recordings, &role_on_page);
+    std::vector<FlightChange> changes{made_change(11.7, 0.001)};
+    changes[0].frames.frames_changed = ChangedFrames{21, 26, 1.0, 0.5};
+    changes[0].same_pictures = false;
+    const std::string page = html_report(recordings, {.flights = flights, .changes = changes});
+    CHECK_THAT(page, Contains("<p class=\"answer\">\u25B2 11.7 % slower (10.6 to 12.8 %); frames 21-26.</p>"));
+    CHECK_THAT(
+        page, Contains("<td class=\"slower\"><span role=\"img\" aria-label=\"slower\">\u25B2</span> +11.7 %</td>"));
+    CHECK_THAT(page, Contains("\u25B2</span> +11.7 % (+10.6 to +12.8 %)</td><td>frames 21-26; other pictures</td>"));
+    CHECK_THAT(page, Contains("the &lt;new&gt; one") && Contains("(12 of 200 runs)"));
+    const std::size_t overlaid = page.find("plot-list");
     REQUIRE(overlaid != std::string::npos);
     const std::string curves = page.substr(overlaid, page.find("</script>", overlaid) - overlaid);
-    CHECK_THAT(curves, Contains("run-10\"") && Contains("run-11\"") && !Contains("run-12\""));
-    CHECK(count_of(page, "class=\"plot small\"") == 200);
+    CHECK_THAT(curves, Contains("{\"k\":10,") && Contains("{\"k\":11,") && !Contains("{\"k\":12,"));
+    CHECK(count_of(page, "{\"k\":") == 12 + 200);
     CHECK(count_of(page, "data:image/png;base64,") == 24);
-    recordings[1].run.noise = {"Other programs used 50 % of the processor time."};
-    const std::string noisy = html_report(recordings);
-    CHECK_THAT(noisy, Contains("<td>+11.7 % (") && Contains("noisy runs is called"));
     CHECK(page.size() < 3'000'000);
+    changes[0] = made_change(1.5, 0.5); // 0.5 to 2.5 %, which does not exclude 2 %
+    CHECK_THAT(html_report(recordings, {.flights = flights, .changes = changes}),
+        Contains("aria-label=\"unknown\">?</span> +1.5 %"));
+    changes[0] = made_change(0.5, 0.5);
+    CHECK_THAT(html_report(recordings, {.flights = flights, .changes = changes}),
+        Contains("aria-label=\"no-change\">=</span> +0.5 %"));
+}
+
+TEST_CASE("the answer counts changes, and the matrix has variants in rows as they were given") {
+    const ScratchFolder scratch;
+    const LoadedRecording base = made_up_recording(scratch / "one", "first", 5.0);
+    std::vector<LoadedRecording> recordings;
+    const auto add = [&](const std::string& variant, const std::string& flight) {
+        for (int repeat = 0; repeat < 2; ++repeat) {
+            recordings.push_back(base);
+            recordings.back().name = variant + flight + std::to_string(repeat);
+            recordings.back().run.title = flight.substr(0, 4);
+            recordings.back().run.settings = {{"note", variant}, {"path", flight}};
+        }
+    };
+    for (const char* variant : {"z", "b", "a"}) { add(variant, "east"); }
+    for (const char* variant : {"z", "b"}) { add(variant, "west"); }
+    add("z", "repeats only");
+    std::vector<FlightChange> changes{made_change(10.0, 0.01), made_change(-10.0, 0.01), made_change(0.0, 0.9)};
+    std::vector<ComparedFlight> flights = compared_flights(recordings, &role_on_page);
+    const std::string page = html_report(recordings, {.flights = flights, .changes = changes});
+    CHECK_THAT(page, Contains("2 of 3 variants changed, geometric mean -0.3 %.")); // 1.1 * 0.9 * 1 is 0.9967 cubed
+    CHECK_THAT(page, Contains("\u25B2 1 slower, \u25BC 1 faster, = 1 without a change, ? 0 that cannot be told."));
+    const std::string matrix = page.substr(page.find("sortable matrix"), 1200);
+    CHECK_THAT(matrix, Contains("<th>variant</th><th>east</th><th>west</th></tr>"));
+    CHECK_THAT(
+        matrix, Contains("<tr><td>note z</td><td class=\"soft\">10.000 ms</td><td class=\"soft\">10.000 ms</td></tr>"));
+    CHECK(matrix.find("note z") < matrix.find("note b"));
+    CHECK(matrix.find("note b") < matrix.find("note a"));
+    for (int i = 0; i < 30; ++i) {
+        add("z", fmt::format("same title {}", i));
+        add("b", fmt::format("same title {}", i));
+        changes.push_back(made_change(0.0, 0.9));
+    }
+    flights = compared_flights(recordings, &role_on_page);
+    const std::string turned = html_report(recordings, {.flights = flights, .changes = changes});
+    CHECK_THAT(turned, Contains("<thead><tr><th>flight</th><th>note z</th><th>note b</th><th>note a</th>"));
+    CHECK_THAT(turned, Contains("<td>same, path same title 7</td>"));
+}
+
+TEST_CASE("a long table is data for the page's script, which no text ends") {
+    ResultTable table;
+    for (int i = 0; i < 150; ++i) { table.add({{"name", i == 149 ? "</script>\xFF" : "a"}, {"n", i}}); }
+    table.rows[140][0].link = "x y";
+    table.rows[141][0].css_class = "slower";
+    const std::string html = html_of(table, {"sortable", 100});
+    CHECK(count_of(html, "<tr><td>") == 100);
+    CHECK(count_of(html, "</script>") == 1);
+    CHECK_THAT(html, Contains("{\"classes\":[\" \",\"number \"],\"rows\":[[\"a\",\"0\"],\n[\"a\",\"1\"],"));
+    CHECK_THAT(html, Contains("[\"\\u003c/script>\uFFFD\",\"149\"]]}</script>"));
+    CHECK_THAT(html, Contains("[[\"a\",\"\",\"x y\"],\"140\"],\n[[\"a\",\"slower\",\"\"],\"141\"]"));
+    CHECK_THAT(html, Contains("The first 100 of 150 rows") && !Contains("rows are printed"));
+    CHECK_THAT(html_of(table, {"sortable"}), !Contains("<script"));
+}
+
+TEST_CASE("several recordings keep little but their frame times") {
+    const ScratchFolder scratch;
+    const std::vector<std::filesystem::path> folders{scratch / "one", scratch / "two"};
+    for (const auto& folder : folders) { made_up_recording(folder, "t", 5.0); }
+    const std::vector<LoadedRecording> both = load_recordings(folders);
+    const LoadedRecording whole = load_recordings(std::span(folders).first(1)).front();
+    REQUIRE(both.size() == 2);
+    CHECK(both[1].name == "two");
+    CHECK(both[0].statistics == whole.statistics);
+    CHECK(both[0].flight.frames() == 30);
+    CHECK(both[0].flight.end_s() == whole.flight.end_s());
+    CHECK(both[0].flight.frame_ms.series().y == whole.flight.frame_ms.series().y);
+    CHECK(both[0].flight.times().counts().empty());
+    CHECK_FALSE(whole.flight.times().counts().empty());
+    Curve curve;
+    for (int i = 0; i < 5000; ++i) { curve.add(i, i == 777 ? 9.0 : i % 2); }
+    curve.thin(20);
+    const PlotSeries few = curve.series();
+    CHECK(few.x.size() <= 40);
+    CHECK(*std::ranges::max_element(few.y) == 9.0);
 }
 
 TEST_CASE("a killed and noisy flight, a flight without frames and a bad picture are said") {

@@ -88,7 +88,7 @@ TEST_CASE("what is read out of a packed recording is called by the packed file")
         load_recording(scratch / "a.zip"), load_recording(scratch / "other/a.zip")};
     CHECK(both[0].display_name == (scratch / "a.zip").string());
     CHECK(both[1].display_name == (scratch / "other/a.zip").string());
-    const std::string page = html_report(both, {}, scratch / "there");
+    const std::string page = html_report(both, {.folder = scratch / "there"});
     CHECK_THAT(page, Contains(both[0].display_name) && Contains(both[1].display_name));
     CHECK_THAT(page, !Contains(both[0].folder.path.string()) && !Contains(both[1].folder.path.string()));
     CHECK(load_recording(scratch / "rec").display_name == (scratch / "rec").string());

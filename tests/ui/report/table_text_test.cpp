@@ -92,11 +92,27 @@ TEST_CASE("a plot stands in a page with its data, gaps, axes and quotes") {
     CHECK_THAT(
         html, Contains(R"("y":"it's \u0022y\u0022","x0":null,"x1":null,"y0":0,"y1":null,"xlog":true,"log":false)"));
     CHECK_THAT(html, Contains(R"("levels":[["limit",2.5]],"marks":[["leg",1.5]])"));
-    CHECK_THAT(html, Contains(R"({"n":"a \u003c b","c":"#102030","s":"points","x":[1,2,3],"y":[4,null,6]})"));
-    CHECK_THAT(html, Contains(R"({"n":"","c":"#405060","s":"area","x":[1,2],"y":[3,4],"l":[1,2]})"));
+    CHECK_THAT(html, Contains(R"({"n":"a \u003c b","x":[1,2,3],"y":[4,null,6],"c":"#102030","s":"points"})"));
+    CHECK_THAT(html, Contains(R"({"n":"","x":[1,2],"y":[3,4],"c":"#405060","s":"area","l":[1,2]})"));
     CHECK(page_plot(plot, PlotWidth::FullWidth) == html);
     plot.series[0].name = "</script>";
     const std::string attack = page_plot(plot, PlotWidth::Small);
     CHECK_THAT(attack, Contains("\"n\":\"\\u003c/script>\"") && Contains("[[\"leg\",1.5]]"));
     CHECK(attack.find("</script>") == attack.rfind("</script>"));
+}
+
+TEST_CASE("plots of a list share their curves and what the first of them has") {
+    const std::array curves{PlotSeries{"a\xFF", "", PlotSeries::Style::Line, {1, 2}, {3, 4}}};
+    CHECK(page_curves(curves) ==
+          "<script type=\"application/json\" id=\"curves\">[{\"n\":\"a\uFFFD\",\"x\":[1,2],\"y\":[3,4]}]</script>\n");
+    std::vector<Plot> plots(70, Plot{"", "s", "ms"});
+    for (Plot& plot : plots) { plot.series = {{.name = "", .colour = "#102030", .shared_curve = 0}}; }
+    plots[1].title = "</script>";
+    plots[1].y_max = 7.0;
+    const std::string html = page_plot_list(plots, curves, PlotWidth::Small);
+    CHECK_THAT(html, Contains(R"("common":{"x":"s","y":"ms","x0":null,)"));
+    CHECK_THAT(html, Contains("\"plots\":[{\"series\":[{\"k\":0,\"c\":\"#102030\",\"s\":\"line\"}]},\n"
+                              "{\"title\":\"\\u003c/script>\",\"y1\":7,\"series\""));
+    CHECK_THAT(html, Contains("The first 60 of 70 plots are printed."));
+    CHECK(page_plot_list({}, curves, PlotWidth::Small).empty());
 }

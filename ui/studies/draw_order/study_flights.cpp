@@ -194,7 +194,7 @@ void write_results(const std::vector<MeasuredRow>& measured, const StudyOptions&
     study.add("raster", raster_table(flights));
     const report::Plot plot = plot_of(measured);
     study.add({&plot, 1}, "Three ways by OpenGL.");
-    write_file(options.out / "report.html", report::html_report(recordings, study.tables()));
+    write_file(options.out / "report.html", report::html_report(recordings, {.first_tables = study.tables()}));
     base::print_note(options.quiet, fmt::format("report: {}/report.html", options.out.string()));
     study.finish("flights");
 }
