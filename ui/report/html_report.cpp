@@ -1,7 +1,9 @@
 #include "ui/report/html_report.h"
 
+#include "sim/base/error.h"
 #include "sim/base/output_file.h"
 #include "ui/report/comparison.h"
+#include "ui/report/figures.h"
 #include "ui/report/flight_accumulator.h"
 #include "ui/report/html_text.h"
 #include "ui/report/plots.h"
@@ -471,13 +473,23 @@ Plot overlaid_plot(Recordings recordings, const ComparedFlight& flight) {
     return plot;
 }
 
+/// A plot with its title as a picture; empty where cairo is missing.
+std::string picture_of_plot(const Plot& plot) {
+    try {
+        std::string svg = figure_svg(plot, {.width_mm = 160.0, .height_mm = 60.0});
+        svg.erase(0, svg.find("<svg"));
+        return fmt::format("<figure>{}<figcaption>{}</figcaption></figure>\n", svg, escaped(plot.title));
+    } catch (const Error&) { return {}; }
+}
+
 /// The frame times of each compared flight's runs in one plot.
 std::string overlaid_plots(Recordings recordings, const Comparison& comparison, std::span<const PlotSeries> curves) {
     if (comparison.flights.empty()) { return {}; }
     std::vector<Plot> plots;
     for (const ComparedFlight& flight : comparison.flights) { plots.push_back(overlaid_plot(recordings, flight)); }
     return heading_html("Frame times of the same flight, a colour for each variant") +
-           card_html(page_plot_list(plots, curves, plots.size() == 1 ? PlotWidth::FullWidth : PlotWidth::HalfWidth));
+           card_html(page_plot_list(
+               plots, curves, plots.size() == 1 ? PlotWidth::FullWidth : PlotWidth::HalfWidth, picture_of_plot));
 }
 
 /// All plots of one flight, over simulated time with the legs of its path.

@@ -181,7 +181,7 @@ td.definition { color: var(--soft); }
 .code { font: .86em ui-monospace, "DejaVu Sans Mono", Menlo, Consolas, monospace; overflow-wrap: anywhere; }
 .sheet { display: grid; gap: .8rem; grid-template-columns: repeat(auto-fill, minmax(240px, 1fr)); }
 figure { margin: 0; }
-figure img { display: block; width: 100%; height: auto; border-radius: 6px; border: 1px solid var(--line); }
+figure img, figure svg { display: block; width: 100%; height: auto; border-radius: 6px; border: 1px solid var(--line); }
 figcaption { font-size: .8rem; padding-top: .2rem; overflow-wrap: anywhere; }
 .note + .sheet { margin-top: .8rem; }
 .missing { border: 1px dashed var(--line); border-radius: 6px; padding: 1rem; }

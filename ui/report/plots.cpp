@@ -100,18 +100,9 @@ std::string key_html(const Plot& plot) {
     return html.empty() ? html : "<div class=\"key\">" + html + "</div>";
 }
 
-} // namespace
-
-std::string static_picture_html(const Plot& /*plot*/) { return {}; }
-
-namespace {
-
-/// What readers without script see of these plots.
-std::string without_script(std::span<const Plot> plots) {
-    std::string html;
-    for (const Plot& plot : plots) { html += static_picture_html(plot); }
-    return fmt::format(
-        "<noscript>{}</noscript>", html.empty() ? note_html("Plots are drawn by the page's script.") : html);
+/// What readers without script see: a note and pictures.
+std::string without_script(std::string_view pictures) {
+    return fmt::format("<noscript>{}{}</noscript>", note_html("Plots are drawn by the page's script."), pictures);
 }
 
 /// The plot with the names and points of its shared curves.
@@ -139,8 +130,7 @@ std::string page_plot(const Plot& plot, PlotWidth width) {
     return fmt::format("<div class=\"plot{}\" data-height=\"{}\"><h3>{}</h3>{}"
                        "<script type=\"application/json\">{}</script>{}</div>\n",
         look_of(width), height_px(width), escaped(plot.title),
-        width == PlotWidth::Small ? std::string() : key_html(plot), plot_json(plot),
-        without_script(std::span(&plot, 1)));
+        width == PlotWidth::Small ? std::string() : key_html(plot), plot_json(plot), without_script({}));
 }
 
 std::string page_curves(std::span<const PlotSeries> curves) {
@@ -152,8 +142,9 @@ std::string page_curves(std::span<const PlotSeries> curves) {
     return fmt::format("<script type=\"application/json\" id=\"curves\">{}]</script>\n", json);
 }
 
-std::string page_plot_list(std::span<const Plot> plots, std::span<const PlotSeries> curves, PlotWidth width) {
-    constexpr std::size_t max_static_pictures = 24;
+std::string page_plot_list(
+    std::span<const Plot> plots, std::span<const PlotSeries> curves, PlotWidth width, PlotPicture picture_of) {
+    constexpr std::size_t max_pictures = 12;
     if (plots.empty()) { return {}; }
     std::string common;
     for (const auto& [name, value] : members_of(plots.front())) {
@@ -167,11 +158,11 @@ std::string page_plot_list(std::span<const Plot> plots, std::span<const PlotSeri
                     "\"plots\":[{}]}}</script></div>\n",
             width == PlotWidth::Small ? " small-plots" : (width == PlotWidth::HalfWidth ? " plots" : ""),
             look_of(width), height_px(width), common, list);
-    std::vector<Plot> pictured;
-    for (const Plot& plot : plots.first(std::min(plots.size(), max_static_pictures))) {
-        pictured.push_back(with_points(plot, curves));
+    std::string pictures;
+    for (const Plot& plot : plots.first(picture_of != nullptr ? std::min(plots.size(), max_pictures) : 0)) {
+        pictures += picture_of(with_points(plot, curves));
     }
-    html += without_script(pictured) + "\n";
+    html += without_script(pictures) + "\n";
     if (plots.size() > max_printed_plots) {
         html += fmt::format("<p class=\"note print-only\">The first {} of {} plots are printed.</p>\n",
             max_printed_plots, plots.size());

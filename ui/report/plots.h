@@ -63,18 +63,19 @@ enum class PlotWidth {
 };
 
 /// A plot for a page: its title, key and numbers, which the script of html_text.h draws at the size that it finds.
-/// Numbers have five significant digits. Readers without script have its static_picture_html().
+/// Numbers have five significant digits.
 std::string page_plot(const Plot& plot, PlotWidth width);
 
 /// Curves that plots of page_plot_list() share: their names and points, once in a page.
 std::string page_curves(std::span<const PlotSeries> curves);
 
+/// Makes the HTML of a picture of a plot, for readers without script.
+using PlotPicture = std::string (*)(const Plot&);
+
 /// Many plots, all of whose series are among these shared curves. The script makes them while the reader scrolls, so
 /// that a page of ten thousand opens at once. A plot without a title has the name of its first curve. Readers without
-/// script have pictures of the first ones.
-std::string page_plot_list(std::span<const Plot> plots, std::span<const PlotSeries> curves, PlotWidth width);
-
-/// The picture of a plot with its title for readers without script; empty where there is none.
-std::string static_picture_html(const Plot& plot);
+/// script have pictures of the first twelve, where `picture_of` is not null.
+std::string page_plot_list(
+    std::span<const Plot> plots, std::span<const PlotSeries> curves, PlotWidth width, PlotPicture picture_of = nullptr);
 
 } // namespace octant::ui::report

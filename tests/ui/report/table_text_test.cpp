@@ -5,6 +5,7 @@
 #include <catch2/catch.hpp>
 
 #include <array>
+#include <fmt/format.h>
 #include <limits>
 
 using namespace octant;
@@ -115,4 +116,7 @@ TEST_CASE("plots of a list share their curves and what the first of them has") {
                               "{\"title\":\"\\u003c/script>\",\"y1\":7,\"series\""));
     CHECK_THAT(html, Contains("The first 60 of 70 plots are printed."));
     CHECK(page_plot_list({}, curves, PlotWidth::Small).empty());
+    const std::string pictured = page_plot_list(plots, curves, PlotWidth::Small,
+        [](const Plot& each) { return fmt::format("<i>{}</i>", each.series[0].y[1]); });
+    CHECK_THAT(pictured, Contains("<i>4</i><i>4</i>"));
 }
