@@ -45,6 +45,7 @@ struct CompareOptions : base::OutputOptions {
 /// What is told of one flight.
 struct FlightComparison {
     report::FlightChange change;
+    report::ComparedFlight runs;  ///< old and new variant
     report::NamedValues settings; ///< of the first old recording
     std::optional<double> turn_s;
     std::optional<double> seconds;
@@ -70,6 +71,12 @@ struct Comparison {
         std::vector<report::FlightChange> changes;
         for (const FlightComparison& flight : flights) { changes.push_back(flight.change); }
         return changes;
+    }
+
+    std::vector<report::ComparedFlight> runs() const {
+        std::vector<report::ComparedFlight> runs;
+        for (const FlightComparison& flight : flights) { runs.push_back(flight.runs); }
+        return runs;
     }
 };
 
@@ -155,8 +162,14 @@ Comparison fly_comparison(const CompareOptions& options, ComparedKind kind, cons
             for (std::size_t s = 0; s < 2; ++s) { comparison.sides[s] = side_result(flown.recordings[s]); }
         }
         comparison.how = flown.turn_s ? "in turns" : "alternately";
-        FlightComparison result{std::move(flown.change), flown.recordings.front().run.settings, flown.turn_s,
-            flown.seconds, flown.drift, {}};
+        FlightComparison result{std::move(flown.change), {flight.name, {}}, flown.recordings.front().run.settings,
+            flown.turn_s, flown.seconds, flown.drift, {}};
+        for (const sweep::ComparedProgram& program : plan.programs) {
+            result.runs.variants.push_back({program.name, {}});
+        }
+        for (std::size_t i = 0; i < flown.recordings.size(); ++i) {
+            result.runs.variants[i % 2].runs.push_back(comparison.recordings.size() + i);
+        }
         if (const auto& frames = result.change.frames.frames_changed) {
             const int middle = frames->first_frame + (frames->last_frame - frames->first_frame) / 2;
             result.pictures = sweep::fly_to_frame(plan.programs, folder / flight.name, middle, dice);
@@ -195,6 +208,7 @@ Comparison compare_recordings(const CompareOptions& options) {
         result.change =
             report::flight_change(comparison.recordings, flight.before, flight.after, &settings::comparison_role);
         result.change.flight = flight.name;
+        result.runs = {flight.name, {flight.before, flight.after}};
         result.settings = comparison.recordings[flight.before.runs.front()].run.settings;
         comparison.flights.push_back(std::move(result));
     }
@@ -309,11 +323,13 @@ void compare(const CompareOptions& options) {
     const std::string page = out ? (*out / "compare.html").string() : std::string();
     const base::JsonValue json = json_of(options, comparison, verdict, answer, page);
     if (out) {
-        std::vector<report::ResultTable> tables = picture_tables(comparison, folder);
-        tables.insert(tables.begin(), result_table(changes));
+        const std::vector<report::ResultTable> pictures = picture_tables(comparison, folder);
+        const std::vector<report::ComparedFlight> runs = comparison.runs();
         write_file(folder / "compare.csv", csv_of(changes));
         write_file(folder / "compare.json", base::json_of_results(json));
-        write_file(folder / "compare.html", report::html_report(comparison.recordings, tables, folder));
+        write_file(folder / "compare.html",
+            report::html_report(comparison.recordings,
+                {.first_tables = pictures, .folder = folder, .flights = runs, .changes = changes}));
     }
     if (options.json) {
         base::print_value(json, true);
