@@ -327,9 +327,9 @@ void compare(const CompareOptions& options) {
         const std::vector<report::ComparedFlight> runs = comparison.runs();
         write_file(folder / "compare.csv", csv_of(changes));
         write_file(folder / "compare.json", base::json_of_results(json));
-        write_file(folder / "compare.html",
-            report::html_report(comparison.recordings,
-                {.first_tables = pictures, .folder = folder, .flights = runs, .changes = changes}));
+        write_file(
+            folder / "compare.html", report::html_report(comparison.recordings,
+                                         {pictures, folder, runs, changes, options.limit, options.rounds.within}));
     }
     if (options.json) {
         base::print_value(json, true);

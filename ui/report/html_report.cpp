@@ -234,9 +234,6 @@ std::string runs_table(Recordings recordings, const std::vector<std::string>& la
 /// What is said of a change: slower, faster, no change found, or that it cannot be told.
 enum class Outcome { Slower, Faster, NoChange, Unknown };
 
-constexpr double change_limit = 0.0;       ///< of verdict_of() and answer_text()
-constexpr double change_resolution = 0.02; ///< as change_limit
-
 /// A variant of a flight against the baseline of that flight.
 struct ComparisonRow {
     std::size_t flight = 0;  ///< in Comparison::flights
@@ -250,11 +247,10 @@ struct Comparison {
     std::vector<ComparisonRow> rows;
 };
 
-Outcome outcome_of(const FlightChange& change) {
+Outcome outcome_of(const FlightChange& change, double limit, double resolution) {
     if (change.is_changed()) { return change.frames.share() < 0.0 ? Outcome::Faster : Outcome::Slower; }
-    return verdict_of(std::span(&change, 1), change_limit, change_resolution) == Verdict::CannotTell
-               ? Outcome::Unknown
-               : Outcome::NoChange;
+    return verdict_of(std::span(&change, 1), limit, resolution) == Verdict::CannotTell ? Outcome::Unknown
+                                                                                       : Outcome::NoChange;
 }
 
 /// Adds to the names of flights the settings in which they differ where names repeat.
@@ -274,15 +270,14 @@ void tell_apart(Recordings recordings, std::vector<ComparedFlight>& flights) {
     }
 }
 
-/// `changes`: of each variant but the first of each flight, in their order.
-Comparison comparison_of(
-    Recordings recordings, std::span<const ComparedFlight> flights, std::span<const FlightChange> changes) {
+Comparison comparison_of(Recordings recordings, const ReportPageOptions& options) {
     Comparison comparison;
-    for (const ComparedFlight& flight : flights) {
+    for (const ComparedFlight& flight : options.flights) {
         if (flight.variants.size() == 1 && flight.variants.front().runs.size() == 1) { continue; }
         for (std::size_t v = 1; v < flight.variants.size(); ++v) {
-            const FlightChange& change = changes[comparison.rows.size()];
-            comparison.rows.push_back({comparison.flights.size(), v, &change, outcome_of(change)});
+            const FlightChange& change = options.changes[comparison.rows.size()];
+            comparison.rows.push_back(
+                {comparison.flights.size(), v, &change, outcome_of(change, options.limit, options.resolution)});
         }
         comparison.flights.push_back(flight);
     }
@@ -304,9 +299,9 @@ Cell change_cell(std::string column, const ComparisonRow& row, bool with_interva
 }
 
 /// The answer in a sentence, and how many changes are of which kind.
-std::string answer_html(const Comparison& comparison, std::span<const FlightChange> changes) {
+std::string answer_html(const Comparison& comparison, const ReportPageOptions& options) {
     constexpr std::array marks{"\u25B2", "\u25BC", "=", "?"};
-    std::string answer = answer_text(changes, change_limit, change_resolution);
+    std::string answer = answer_text(options.changes, options.limit, options.resolution);
     std::string more;
     if (comparison.flights.empty()) {
         answer = "Nothing is compared: no two recordings are of the same flight on the same kind of machine";
@@ -369,7 +364,7 @@ Matrix matrix_of(const Comparison& comparison) {
 }
 
 /// The matrix in tables of at most 12 columns, so that it is not wider than a page.
-std::string matrix_html(const Comparison& comparison) {
+std::string matrix_html(const Comparison& comparison, double excluded_slowdown) {
     constexpr std::size_t max_columns = 12;
     const Matrix matrix = matrix_of(comparison);
     std::string html;
@@ -390,9 +385,9 @@ std::string matrix_html(const Comparison& comparison) {
     return html + note_html(fmt::format(
                       "Change of the frame time from the baseline, whose own is shown in ms. \u25B2 slower, \u25BC "
                       "faster: certain at 5 % with all comparisons of this page counted. = no change found, and a "
-                      "slowdown above {:.0f} % excluded. ? cannot tell: the interval is wider, or a side has fewer "
+                      "slowdown above {:.2g} % excluded. ? cannot tell: the interval is wider, or a side has fewer "
                       "than three runs.",
-                      100.0 * change_resolution));
+                      100.0 * excluded_slowdown));
 }
 
 /// "frames 210-260; plan stage +0.80 ms; other pictures".
@@ -689,11 +684,11 @@ std::string page_of_one(const LoadedRecording& recording, const ReportPageOption
 
 std::string page_of_several(Recordings recordings, const ReportPageOptions& options) {
     const std::vector<std::string> labels = labels_of(recordings);
-    const Comparison comparison = comparison_of(recordings, options.flights, options.changes);
+    const Comparison comparison = comparison_of(recordings, options);
     const std::vector<PlotSeries> curves = frame_time_curves(recordings, labels);
     std::string html = page_head(fmt::format("{} flights compared", recordings.size()), "Octant flight report", true);
-    html +=
-        card_html(answer_html(comparison, options.changes) + (comparison.rows.empty() ? "" : matrix_html(comparison)));
+    html += card_html(answer_html(comparison, options) +
+                      (comparison.rows.empty() ? "" : matrix_html(comparison, options.limit + options.resolution)));
     for (const ResultTable& table : options.first_tables) {
         html += card_html(html_of(table, {"sortable", max_html_rows}));
     }

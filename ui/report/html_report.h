@@ -15,6 +15,8 @@ struct ReportPageOptions {
     std::filesystem::path folder = {};              ///< where the page will lie, for links
     std::span<const ComparedFlight> flights = {};   ///< compared_flights() of the recordings; none: nothing is compared
     std::span<const FlightChange> changes = {};     ///< flight_changes() of these flights
+    double limit = 0.0;                             ///< as of answer_text()
+    double resolution = 0.02;                       ///< as of answer_text()
 };
 
 /// A self-contained page on one recording or on several. The page on one has its figures with their definitions, plots
