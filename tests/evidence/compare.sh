@@ -1,8 +1,7 @@
 #!/usr/bin/env bash
-# Trials of octant compare (compare.md).
-#   compare.sh same OCTANT COUNT LOAD         COUNT comparisons of a program with itself beside LOAD busy programs
-#   compare.sh delayed OCTANT CHECKOUT COUNT  COUNT comparisons with programs whose plan stage waits by 1, 2 and 5 %
-# CHECKOUT: a copy of the checkout with a build in build/ci, whose session.cpp is changed. One line a comparison.
+# Trials of octant compare (comparison.md), a line each.
+#   compare.sh same OCTANT COUNT LOAD      COUNT comparisons of a program with itself beside LOAD busy programs
+#   compare.sh delayed OCTANT COUNT US...  COUNT comparisons each with a program whose plan stage takes US more microseconds
 set -euo pipefail
 what=$1 octant=$2
 out=$(mktemp -d)
@@ -21,14 +20,11 @@ case $what in
     for ((i = 1; i <= $3; ++i)); do compared "load $4" "$octant" "$i"; done
     ;;
   delayed)
-    cd "$3"
-    # Waits for so many milliseconds in the plan stage of frames 80 to 119.
-    sed -i 's|^    record.plan_ms = stage.lap_ms();|    if (const char* wait_ms = std::getenv("WAIT_MS"); wait_ms != nullptr \&\& frame >= 80 \&\& frame < 120) {\n        for (const Stopwatch waiting; waiting.ms() < std::atof(wait_ms);) {}\n    }\n&|; s|^#include "ui/flight/session.h"|&\n#include <cstdlib>|' ui/flight/session.cpp
-    cmake --build --preset ci --target octant >"$out/log" 2>&1 || { tail "$out/log"; exit 2; }
-    frame_ms=$("$octant" fly turn --size 640x360 --frames 200 --json --quiet | sed -n 's/.*"mean_ms": *\([0-9.]*\).*/\1/p' | head -n 1)
-    for percent in 1 2 5; do
-      export WAIT_MS=$(awk "BEGIN { print $frame_ms * $percent / 100 * 190 / 40 }")
-      for ((i = 1; i <= $4; ++i)); do compared "$percent %: $WAIT_MS ms in frames 80-119" "$3/build/ci/octant" "$i"; done
+    g++ -shared -fPIC -O1 -fno-builtin "$(dirname "$0")/slow_stage.cpp" -o "$out/slow_stage.so"
+    printf '#!/bin/sh\nLD_PRELOAD=%s exec %s "$@"\n' "$out/slow_stage.so" "$(realpath "$octant")" >"$out/slower"
+    chmod +x "$out/slower"
+    for us in "${@:4}"; do
+      for ((i = 1; i <= $3; ++i)); do SLOW_US=$us compared "$us us" "$out/slower" "$i"; done
     done
     ;;
 esac

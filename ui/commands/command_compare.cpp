@@ -125,10 +125,12 @@ FlightPlan flight_plan(const CompareOptions& options, ComparedKind kind) {
     FlightPlan plan;
     std::vector<std::string> notes;
     const fs::path own_program = fs::read_symlink("/proc/self/exe");
+    const bool same_names = options.sides[0] == options.sides[1];
     for (std::size_t s = 0; s < plan.programs.size(); ++s) {
         const fs::path& side = options.sides[s];
-        plan.programs[s] = {
-            side.string(), kind == ComparedKind::Programs ? absolute_path(side).string() : own_program.string()};
+        const std::string_view mark = !same_names ? "" : (s == 0 ? "old " : "new ");
+        plan.programs[s] = {fmt::format("{}{}", mark, side.string()),
+            kind == ComparedKind::Programs ? absolute_path(side).string() : own_program.string()};
     }
     if (kind == ComparedKind::Programs) {
         plan.flights = compared_flight_settings(options.settings, notes);
