@@ -17,6 +17,9 @@ constexpr std::array handled_signals{
     HandledSignal{SIGINT, "SIGINT"}, HandledSignal{SIGTERM, "SIGTERM"}, HandledSignal{SIGHUP, "SIGHUP"}};
 
 volatile std::sig_atomic_t received_signal = 0;
+volatile std::sig_atomic_t received_continues = 0;
+
+void count_continue(int /*number*/) { received_continues = received_continues + 1; }
 
 void store_signal(int number) {
     if (received_signal != 0) {
@@ -44,13 +47,17 @@ void set_handler(int number, void (*handler)(int)) {
 
 StopSignals::StopSignals() {
     for (const HandledSignal& stop : handled_signals) { set_handler(stop.number, store_signal); }
+    set_handler(SIGCONT, count_continue);
 }
 
 StopSignals::~StopSignals() {
     for (const HandledSignal& stop : handled_signals) { set_handler(stop.number, SIG_DFL); }
+    set_handler(SIGCONT, SIG_DFL);
 }
 
 bool StopSignals::received() { return received_signal != 0; }
+
+int StopSignals::pauses() { return received_continues; }
 
 std::string StopSignals::name() {
     for (const HandledSignal& stop : handled_signals) {

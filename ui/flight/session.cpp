@@ -1,5 +1,6 @@
 #include "ui/flight/session.h"
 
+#include "ui/base/stop_signals.h"
 #include "ui/flight/renderer_choice.h"
 #include "ui/report/statistics.h"
 #include "ui/world/scene_ground.h"
@@ -150,6 +151,7 @@ report::FrameRecord Session::render_frame(int frame, double time_s, std::optiona
     record.wall_s = since_first_frame_.s();
 
     counters_.begin();
+    const int pauses = base::StopSignals::pauses();
     const Stopwatch whole;
     Stopwatch stage;
     if (next_is_simulated_ && next_.time_s == time_s) {
@@ -179,6 +181,7 @@ report::FrameRecord Session::render_frame(int frame, double time_s, std::optiona
     pictures_.show();
     record.read_ms = stage.lap_ms();
     record.frame_ms = whole.ms();
+    record.paused = base::StopSignals::pauses() != pauses;
     record.counters = counters_.lap();
     record.state_hash = current_.state_hash;
     fill_in(planned.counts, record);

@@ -60,7 +60,7 @@ PlotSeries Curve::series(std::size_t max_pieces) const {
 }
 
 void DeadlineStatistics::add(const FrameRecord& record) {
-    if (!record.warm_up && std::isfinite(record.latency_ms)) {
+    if (record.is_counted() && std::isfinite(record.latency_ms)) {
         latency_.add(record.latency_ms);
         missed_ += record.missed;
     }
@@ -127,6 +127,10 @@ void FlightAccumulator::add(const FrameRecord& record) {
         warm_up_ms.add(at_s, record.frame_ms);
         return;
     }
+    if (record.paused) {
+        ++paused_frames_;
+        return;
+    }
     frame_ms.add(at_s, record.frame_ms);
     triangles.add(at_s, record.terrain_triangles);
     triangle_change.add(at_s, record.triangle_change);
@@ -145,6 +149,7 @@ void FlightAccumulator::add(const FrameRecord& record) {
 void FlightAccumulator::keep_frame_times(std::size_t max_pieces) {
     FlightAccumulator fewer;
     fewer.frames_ = frames_;
+    fewer.paused_frames_ = paused_frames_;
     fewer.begin_s_ = begin_s_;
     fewer.end_s_ = end_s_;
     fewer.has_stages_ = has_stages_;

@@ -143,12 +143,15 @@ public:
     /// All of them, with the warm-up.
     int frames() const { return frames_; }
 
+    /// Those after the warm-up in which the program was stopped. No figure and no curve has them.
+    int paused_frames() const { return paused_frames_; }
+
     /// Simulated times of the first and the last one.
     double begin_s() const { return begin_s_; }
 
     double end_s() const { return end_s_; }
 
-    /// Of the frames without the warm-up, as all that follows.
+    /// Of the frames that count, as all that follows.
     const FrameTimeHistogram& times() const { return times_; }
 
     TargetRange triangle_targets() const;
@@ -173,6 +176,7 @@ public:
 
 private:
     int frames_ = 0;
+    int paused_frames_ = 0;
     double begin_s_ = 0.0;
     double end_s_ = 0.0;
     bool has_stages_ = false;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 namespace octant::ui::report {
@@ -25,16 +26,21 @@ double mean_of_values(const Values& values) {
     return values.empty() ? 0.0 : sum / static_cast<double>(values.size());
 }
 
-/// For each frame the median over all flights. `times_of(flight)`: frame times or those of a stage.
-template <class TimesOf>
-Values medians_by_frame(std::span<const FrameTimes* const> flights, std::size_t frames, TimesOf times_of) {
-    Values medians(frames);
-    Values column(flights.size());
-    for (std::size_t k = 0; k < frames; ++k) {
-        std::ranges::transform(flights, column.begin(), [&](const FrameTimes* each) { return times_of(*each)[k]; });
-        medians[k] = median_of(column);
+/// The median of values of flights, in which one side's flights together count as much as the other's: where all values
+/// of one side are below all of the other, it is in the middle between them, however many flights each side has.
+double median_of_sides(const Values& values, std::span<const Side> sides) {
+    const auto old_count = static_cast<std::size_t>(std::ranges::count(sides, Side::Old));
+    const std::size_t new_count = sides.size() - old_count;
+    std::vector<std::size_t> order(values.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::ranges::stable_sort(order, {}, [&](std::size_t i) { return values[i]; });
+    std::size_t passed = 0; // old flights count `new_count`, new ones `old_count`: half of all is their product
+    for (std::size_t i = 0; i < order.size(); ++i) {
+        passed += sides[order[i]] == Side::Old ? new_count : old_count;
+        if (passed == old_count * new_count) { return 0.5 * (values[order[i]] + values[order[i + 1]]); }
+        if (passed > old_count * new_count) { return values[order[i]]; }
     }
-    return medians;
+    return median_of(values);
 }
 
 /// Flights whose frames are the same, in the order of time.
@@ -44,7 +50,7 @@ public:
         : flights_(std::move(flights)), sides_(std::move(sides)), in_rounds_(in_rounds) {
         frames_ = flights_.front()->frame_ms.size();
         for (const FrameTimes* flight : flights_) { frames_ = std::min(frames_, flight->frame_ms.size()); }
-        usual_ms_ = medians_by_frame(flights_, frames_, [](const FrameTimes& each) { return each.frame_ms; });
+        usual_ms_ = medians_by_frame([](const FrameTimes& each) { return std::span(each.frame_ms); });
         leave_out_held_frames();
     }
 
@@ -86,7 +92,7 @@ public:
         if (std::ranges::any_of(flights_, [&](const FrameTimes* each) { return times_of(*each).size() < frames_; })) {
             return std::nullopt;
         }
-        return change_in(range, medians_by_frame(flights_, frames_, times_of), times_of);
+        return change_in(range, medians_by_frame(times_of), times_of);
     }
 
     /// The mean change of each frame, in milliseconds.
@@ -104,6 +110,19 @@ public:
     }
 
 private:
+    /// For each frame the median over all flights. `times_of(flight)`: frame times or those of a stage.
+    template <class TimesOf>
+    Values medians_by_frame(TimesOf times_of) const {
+        Values medians;
+        Values column(flights_.size());
+        for (std::size_t k = 0; k < frames_; ++k) {
+            std::ranges::transform(
+                flights_, column.begin(), [&](const FrameTimes* each) { return times_of(*each)[k]; });
+            medians.push_back(median_of_sides(column, sides_));
+        }
+        return medians;
+    }
+
     /// A flight, or the two of a round: what is left out is left out in the whole unit.
     std::size_t unit_size() const { return in_rounds_ ? 2 : 1; }
 
@@ -115,8 +134,8 @@ private:
         return std::abs(std::log(time_of(unit_size() * unit) / other));
     }
 
-    /// Leaves out frames that are far from where they should be, measured by how far they are in the other units. The
-    /// distance has no sign, so that the rule treats both sides alike.
+    /// Leaves out frames in which a program was stopped, and those that are far from where they should be, measured by
+    /// how far they are in the other units. The distance has no sign, so that the rule treats both sides alike.
     void leave_out_held_frames() {
         constexpr double normal = 1.4826; // standard deviations in a median absolute deviation of normal values
         constexpr double min_deviation = 0.005;
@@ -128,15 +147,26 @@ private:
         for (std::size_t k = 0; k < frames_; ++k) {
             Values column;
             for (std::size_t u = 0; u < units; ++u) { column.push_back(distances[u][k] = distance(u, k)); }
-            usual[k] = median_of(column);
+            usual[k] = in_rounds_ ? median_of(column) : median_of_sides(column, sides_);
             for (const double each : column) { deviations.push_back(std::abs(each - usual[k])); }
         }
         const double limit = max_deviations * std::max(min_deviation, normal * median_of(std::move(deviations)));
         for (const Values& of_unit : distances) {
-            std::vector<bool> kept(frames_);
-            for (std::size_t k = 0; k < frames_; ++k) { kept[k] = of_unit[k] <= usual[k] + limit; }
-            const auto count = static_cast<std::size_t>(std::ranges::count(kept, true));
-            if (2 * count < frames_) { kept.assign(frames_, true); } // the whole unit was slow
+            const std::size_t first = kept_.size();
+            const auto keep_where = [&](const auto& is_kept) {
+                std::vector<bool> kept(frames_);
+                for (std::size_t k = 0; k < frames_; ++k) { kept[k] = is_kept(k); }
+                return kept;
+            };
+            const auto are_few = [&](const std::vector<bool>& kept) {
+                return 2 * static_cast<std::size_t>(std::ranges::count(kept, true)) < frames_;
+            };
+            const auto is_running = [&](std::size_t k) {
+                return !flights_[first]->is_paused(k) && !flights_[first + unit_size() - 1]->is_paused(k);
+            };
+            auto kept = keep_where([&](std::size_t k) { return is_running(k) && of_unit[k] <= usual[k] + limit; });
+            if (are_few(kept)) { kept = keep_where(is_running); } // the whole unit was slow
+            if (are_few(kept)) { kept.assign(frames_, true); }    // turns were shorter than frames
             for (std::size_t i = 0; i < unit_size(); ++i) { kept_.push_back(kept); }
         }
     }
@@ -304,6 +334,15 @@ std::optional<ChangedStage> changed_stage(const SameFrames& flights, FrameRange 
     return most;
 }
 
+/// The median frame time, without frames in which the program was stopped where others are half or more.
+double median_ms_of(const FrameTimes& flight) {
+    Values running;
+    for (std::size_t k = 0; k < flight.frame_ms.size(); ++k) {
+        if (!flight.is_paused(k)) { running.push_back(flight.frame_ms[k]); }
+    }
+    return median_of(2 * running.size() < flight.frame_ms.size() ? flight.frame_ms : std::move(running));
+}
+
 /// By the flights' median frame times alone.
 void compare_figures(
     std::span<const FrameTimes* const> flights, std::span<const Side> sides, bool in_rounds, FrameChange& result) {
@@ -311,7 +350,8 @@ void compare_figures(
     std::vector<Trial> trials;
     std::array<Values, 2> medians_ms; // by side
     for (std::size_t f = 0; f < flights.size(); ++f) {
-        const double median_ms = std::max(median_of(flights[f]->frame_ms), 1e-6);
+        const double median_ms = std::max(median_ms_of(*flights[f]), 1e-6);
+        result.frames = f == 0 ? flights[f]->frame_ms.size() : std::min(result.frames, flights[f]->frame_ms.size());
         trials.push_back({sides[f], std::log(median_ms)});
         medians_ms[static_cast<std::size_t>(sides[f])].push_back(median_ms);
     }

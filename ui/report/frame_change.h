@@ -17,6 +17,9 @@ struct FrameTimes {
     std::vector<double> frame_ms;
     /// By stage (as stage_names), each as long as frame_ms; empty where the file knows no stages.
     std::array<std::vector<double>, stage_names.size()> stage_ms;
+    std::vector<bool> paused = {}; ///< the program was stopped in the frame; as long as frame_ms, or empty: nowhere
+
+    bool is_paused(std::size_t frame) const { return !paused.empty() && paused[frame]; }
 };
 
 /// In which way the flights of two variants are set against each other.
@@ -62,8 +65,8 @@ struct FrameChange {
 
 /// Compares the flights of two variants, in each list in the order of time. `sides`: of all flights in the order of
 /// time; empty: they were flown in rounds, i-th with i-th. Each list has a flight or more, with frames. With
-/// `same_frames`, frame k of all is the same frame; frames that something else held up are left out, by a rule that
-/// does not know the sides. Needs the memory of all frame times once more.
+/// `same_frames`, frame k of all is the same frame; frames in which a program was stopped, or that something else
+/// held up, are left out, by a rule that does not know the sides. Needs the memory of all frame times once more.
 FrameChange frame_change(std::span<const FrameTimes> before, std::span<const FrameTimes> after,
     std::span<const Side> sides = {}, bool same_frames = true);
 

@@ -66,11 +66,6 @@ constexpr FrameColumn optional(FrameColumn column) {
     return column;
 }
 
-constexpr FrameColumn is_signed(FrameColumn column) {
-    column.is_signed = true;
-    return column;
-}
-
 using R = FrameRecord;
 constexpr auto seconds = 6;
 constexpr auto milliseconds = 4;
@@ -90,12 +85,15 @@ constexpr std::array frame_columns{
         "aircraft_polygons", 0, "Polygons in the lists drawn, before those that face away are left out.")),
     required(frame_column<&R::draw_cell>("draw_cell", 0, "Cell of the first aircraft's painting order.")),
     required(optional(frame_column<&R::resolution_c>("resolution_c", 6, "C of the paper's quadtree."))),
-    required(is_signed(
+    required(with_sign(
         frame_column<&R::triangle_change>("triangle_change", 0, "terrain_triangles less those of the frame before."))),
     required(optional(frame_column<&R::stress>(
         "stress", 4, "frame_ms over the frame's share of simulated time; filtered where the ground adapts."))),
     required(frame_column<&R::overrun>("overrun", 0, "1 when frame_ms is above 16.67.")),
     frame_column<&R::warm_up>("warm_up", 0, "1 where statistics leave the frame out."),
+    frame_column<&R::paused>("paused", 0,
+        "1 when the program was stopped during the frame (SIGSTOP), as in the turns of octant compare: statistics "
+        "leave it out."),
     frame_column<&R::record_ms>("record_ms", milliseconds, "Writing pictures and video, after the frame."),
     frame_column<&R::draw_calls>(
         "draw_calls", 0, "Calls of the graphics library; of the raster renderer its painting steps."),
@@ -112,7 +110,7 @@ constexpr std::array frame_columns{
     axis_column<&R::aircraft_m, 1>("aircraft_y_m", "First aircraft, north."),
     axis_column<&R::aircraft_m, 2>("aircraft_z_m", "First aircraft, up."),
     optional(
-        is_signed(frame_column<&R::aircraft_agl_m>("aircraft_agl_m", 3, "First aircraft above the ground below it."))),
+        with_sign(frame_column<&R::aircraft_agl_m>("aircraft_agl_m", 3, "First aircraft above the ground below it."))),
     frame_column<&R::triangle_target>("triangle_target", 0, "How many terrain_triangles the frame was to have."),
     frame_column<&R::detail_triangles>("fine_triangles", 0, "Of terrain_triangles: detail near the eye."),
     frame_column<&R::scenery_triangles>(
@@ -127,7 +125,7 @@ constexpr std::array frame_columns{
         "missed", 0, "By the clock only: 1 when the picture came later than the next one was due."),
     frame_column<&R::smooth_polygons>(
         "smooth_polygons", 0, "Polygons that are lit smoothly, painted or not, with all triangles of refined meshes."),
-    is_signed(frame_column<&R::smooth_target>(
+    with_sign(frame_column<&R::smooth_target>(
         "smooth_target", 0, "How many smooth_polygons the frame was to have; -1: a share decides.")),
     frame_column<&R::aircraft_level>("aircraft_level", 0, "Level of detail of the first aircraft; 0 = finest."),
     frame_column<&R::refine_splits>("refine_splits", 0, "Vertex splits of refined meshes."),
@@ -144,9 +142,9 @@ constexpr std::array frame_columns{
     frame_column<&R::packets_wrong>("packets_wrong", 0, "The same: of no known form."),
     frame_column<&R::stale>("stale", 0, "1 if an aircraft stopped because packets are missing."),
     frame_column<&R::jitter_ms>("jitter_ms", milliseconds, "How much later than the quickest packets come, mean."),
-    is_signed(
+    with_sign(
         frame_column<&R::host_frame>("host_frame", 0, "Frame of the CIGI host that the picture shows; -1 = none.")),
-    is_signed(frame_column<&R::skew_frames>(
+    with_sign(frame_column<&R::skew_frames>(
         "skew_frames", 0, "Of a CIGI host: how many of its frames the last channel is behind; -1 = none.")),
     frame_hash_column<&R::state_hash>("state_hash", "Over the states of all aircraft at every step up to the picture."),
     frame_hash_column<&R::picture_hash>("picture_hash", "Over the picture's pixels; empty in a window."),

@@ -20,6 +20,7 @@ struct FrameCounters {
 struct FrameRecord {
     int frame = 0;
     bool warm_up = false;
+    bool paused = false; ///< the program was stopped (SIGSTOP) during the frame
     double sim_time_s = 0.0;
     double wall_s = 0.0;
     double frame_ms = 0.0;
@@ -69,6 +70,9 @@ struct FrameRecord {
     std::optional<std::uint64_t> state_hash = {};
     std::optional<std::uint64_t> picture_hash = {};
     FrameCounters counters = {}; ///< in counters.csv
+
+    /// Whether its times count in figures.
+    bool is_counted() const { return !warm_up && !paused; }
 };
 
 } // namespace octant::ui::report

@@ -28,7 +28,7 @@ struct MachineInfo {
     std::string kernel;
     std::string compiler;
     std::string lp_num_threads; ///< the environment variable, "not set" without one
-    std::string start_time_utc; ///< 2026-01-31T23:59:59Z
+    std::string start_time_utc; ///< 2026-01-31T23:59:59.123Z: tells which of two flights in turns began first
     double load_average_1min = 0.0;
     CpuTimes cpu_times;
 };
@@ -58,7 +58,7 @@ inline constexpr double noisy_load_per_core = 0.5;
 /// a load average above half the cores at its start.
 std::vector<std::string> noise_reasons(double load_average_1min, int cores, const std::optional<CpuUse>& during);
 
-/// "2026-01-31T23:59:59Z".
+/// "2026-01-31T23:59:59.123Z".
 std::string utc_text(std::chrono::system_clock::time_point time);
 
 } // namespace octant::ui::report

@@ -84,10 +84,10 @@ std::string mangohud_head(const MachineInfo& machine, const std::string& rendere
         plain_field(machine.kernel));
 }
 
-/// A frame's line; nothing for one of the warm-up, so that MangoHud's tools and ours count the same frames. `elapsed`
-/// (ns) is the end of the frame; what MangoHud measures and we do not is 0.
+/// A frame's line; nothing for one that does not count, so that MangoHud's tools and ours count the same frames.
+/// `elapsed` (ns) is the end of the frame; what MangoHud measures and we do not is 0.
 std::string mangohud_line(const FrameRecord& record) {
-    if (record.warm_up) { return {}; }
+    if (!record.is_counted()) { return {}; }
     const double fps = record.frame_ms > 0.0 ? 1000.0 / record.frame_ms : 0.0;
     return fmt::format("{:.3f},{:.4f},0,0,0,0,0,0,0,0,0,0,0,0,0,{:.0f}\n", fps, record.frame_ms,
         1e9 * record.wall_s + 1e6 * record.frame_ms);
@@ -186,6 +186,7 @@ void RecordingWriter::add(const FrameRecord& record) {
     constexpr double flush_every_s = 0.5;
     const FrameRecord written = rounded_as_csv(record);
     times_.add(written);
+    paused_frames_ += record.paused && !record.warm_up ? 1 : 0;
     frames_file_.append(frame_csv_line(record));
     mangohud_file_.append(mangohud_line(written));
     add_to_trace(written);
@@ -211,7 +212,9 @@ void RecordingWriter::set_settings(std::string settings_json) {
 Statistics RecordingWriter::finish(const RunSummary& summary) {
     frames_file_.flush();
     const Statistics statistics = times_.statistics();
-    write_file(folder_ / "run.json", run_json(info_, summary, statistics));
+    RunSummary end = summary;
+    if (paused_frames_ > 0) { end.notes.push_back(pauses_note(paused_frames_)); }
+    write_file(folder_ / "run.json", run_json(info_, end, statistics));
     flush();
     return statistics;
 }

@@ -58,6 +58,7 @@ private:
     AppendedFile counters_file_;
     std::size_t trace_bytes_ = 0;
     FrameTimeHistogram times_;
+    int paused_frames_ = 0;
     int unflushed_frames_ = 0;
     double flushed_wall_s_ = 0.0;
 };

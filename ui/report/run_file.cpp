@@ -158,6 +158,12 @@ std::string value_of(const NamedValues& rows, std::string_view name) {
     return found == rows.end() ? std::string() : found->second;
 }
 
+std::string pauses_note(int frames) {
+    return fmt::format("frames in which the program was stopped (SIGSTOP), as in the turns of octant compare: {}; no "
+                       "figure counts them",
+        frames);
+}
+
 std::string run_json(const RunInfo& info) { return json_text(start_json(info)); }
 
 std::string run_json(const RunInfo& info, const RunSummary& end, const Statistics& statistics) {

@@ -60,6 +60,9 @@ struct RunSummary {
     std::string stopped = {};
 };
 
+/// The note of a recording whose program was stopped in so many frames after its warm-up.
+std::string pauses_note(int frames);
+
 /// run.json with `summary` and `noise` when `end` is given. `info.settings_json` must be a JSON object.
 std::string run_json(const RunInfo& info);
 std::string run_json(const RunInfo& info, const RunSummary& end, const Statistics& statistics);

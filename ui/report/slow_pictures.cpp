@@ -73,7 +73,7 @@ std::string slow_picture_name(int frame) { return fmt::format("slow-{:05}.png", 
 /// Of frames that took as long as each other the first ones are kept, as SlowFrameList does.
 void SlowPictures::add(const FrameRecord& record, const PixelView& picture) {
     constexpr int widest_px = 640;
-    if (record.warm_up) { return; }
+    if (!record.is_counted()) { return; }
     const FrameRecord written = rounded_as_csv(record);
     const auto place = std::ranges::find_if(
         kept_, [&](const SlowPicture& slow_picture) { return slow_picture.record.frame_ms < written.frame_ms; });

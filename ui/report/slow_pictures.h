@@ -25,8 +25,7 @@ std::string picture_html(const std::filesystem::path& picture, int widest_px, co
 /// The name of a slow frame's picture in a recording: slow-00042.png.
 std::string slow_picture_name(int frame);
 
-/// Small pictures of the slowest frames of a flight, those of its warm-up left out, while it is flown; in constant
-/// memory.
+/// Small pictures of the slowest of a flight's frames that count, while it is flown; in constant memory.
 class SlowPictures {
 public:
     /// As many as a report shows.

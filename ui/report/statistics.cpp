@@ -14,7 +14,9 @@ namespace {
 
 using S = Statistics;
 constexpr std::array statistic_table{
-    Statistic{column<&S::frames>("frames", "Frames", 0, "Frames counted: all but the warm-up frames."), false},
+    Statistic{column<&S::frames>("frames", "Frames", 0,
+                  "Frames counted: all but those of the warm-up and those in which the program was stopped."),
+        false},
     Statistic{column<&S::mean_ms>("mean_ms", "Mean, ms", 3, "Arithmetic mean of the frame times.")},
     Statistic{column<&S::sd_ms>("sd_ms", "Standard deviation, ms", 3, "Sample standard deviation (divisor n - 1).")},
     Statistic{column<&S::p50_ms>("p50_ms", "P50, ms", 3,
@@ -56,7 +58,7 @@ void FrameTimeHistogram::add(double frame_ms) {
 }
 
 void FrameTimeHistogram::add(const FrameRecord& record) {
-    if (!record.warm_up) { add(record.frame_ms); }
+    if (record.is_counted()) { add(record.frame_ms); }
 }
 
 /// The time of that rank, counted from 1 upwards.
@@ -147,7 +149,7 @@ std::size_t index_of_greatest(const std::array<double, 5>& values) {
 } // namespace
 
 void SlowFrameList::add(const FrameRecord& record) {
-    if (record.warm_up) { return; }
+    if (!record.is_counted()) { return; }
     const std::array<double, 5> stage_ms = stages_of(record);
     for (std::size_t i = 0; i < stages_.size(); ++i) { stages_[i].add(stage_ms[i]); }
     if (record.frame_ms > overrun_16_ms) { ++above_16_ms_[index_of_greatest(stage_ms)]; }

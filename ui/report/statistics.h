@@ -14,8 +14,8 @@
 
 namespace octant::ui::report {
 
-/// Frame-time figures of a flight, without its warm-up frames. Each is defined in words by all_statistics(). No frames:
-/// all zero (statistic_text() tells). One frame: sd and jitter are zero.
+/// Frame-time figures of a flight, without frames of its warm-up and those in which it was stopped. Each is defined in
+/// words by all_statistics(). No frames: all zero (statistic_text() tells). One frame: sd and jitter are zero.
 struct Statistics {
     int frames = 0;
     double mean_ms = 0.0;
@@ -60,7 +60,7 @@ public:
     /// In flight order, in milliseconds.
     void add(double frame_ms);
 
-    /// The same, unless it is one of the warm-up.
+    /// The same, unless the frame does not count: of the warm-up, or with a pause in it.
     void add(const FrameRecord& record);
 
     Statistics statistics() const;
@@ -100,7 +100,7 @@ struct SlowFrame {
     double slowdown_ms = 0.0;         ///< by that much
 };
 
-/// The slowest frames of a flight, those of its warm-up left out, in constant memory.
+/// The slowest of a flight's frames that count, in constant memory.
 class SlowFrameList {
 public:
     static constexpr std::size_t max_kept = 12;

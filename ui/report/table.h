@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <fmt/format.h>
+#include <functional>
 #include <limits>
 #include <optional>
 #include <span>
@@ -104,6 +105,12 @@ namespace detail {
 template <class Row, class Value>
 Row row_of(Value Row::*);
 
+template <class Row, class Value, class Function>
+Row row_of(Value (Function::*)(const Row&) const);
+
+template <class Function>
+auto row_of(Function) -> decltype(row_of(&Function::operator()));
+
 template <class Value>
 double number_of(const Value& value) {
     if constexpr (requires { value.has_value(); }) {
@@ -122,27 +129,39 @@ base::JsonValue schema_of_column(const ColumnHead& head);
 
 } // namespace detail
 
-/// The column of a member: its kind follows from the member's type; an optional member makes an optional column.
-template <auto Member>
+/// The column of a member, or of a function of a row: its kind follows from the type of its value; an optional number
+/// makes an optional column.
+template <auto Source>
 constexpr auto column(std::string_view key, std::string_view name, int decimals = 0, std::string_view definition = {}) {
-    using Row = decltype(detail::row_of(Member));
-    using Value = std::remove_cvref_t<decltype(std::declval<Row>().*Member)>;
+    using Row = decltype(detail::row_of(Source));
+    using Value = std::remove_cvref_t<std::invoke_result_t<decltype(Source), const Row&>>;
     Column<Row> made;
     made.key = key;
     made.name = name;
     made.decimals = decimals;
     made.definition = definition;
-    if constexpr (std::is_convertible_v<Value, std::string>) {
+    if constexpr (std::is_convertible_v<Value, std::string> || std::is_convertible_v<Value, std::string_view>) {
         made.kind = ColumnKind::Text;
-        made.text = [](const Row& row) { return std::string(row.*Member); };
+        made.text = [](const Row& row) { return std::string(std::invoke(Source, row)); };
     } else {
         made.kind = std::is_same_v<Value, bool> ? ColumnKind::Truth
                     : std::is_integral_v<Value> ? ColumnKind::Whole
                                                 : ColumnKind::Number;
-        made.is_optional = std::is_same_v<Value, std::optional<double>>;
-        made.value = [](const Row& row) { return detail::number_of(row.*Member); };
+        made.is_optional = requires(const Value& value) { value.has_value(); };
+        if constexpr (requires(const Value& value) { value.has_value(); }) {
+            using Number = typename Value::value_type;
+            made.kind = std::is_integral_v<Number> ? ColumnKind::Whole : ColumnKind::Number;
+        }
+        made.value = [](const Row& row) { return detail::number_of(std::invoke(Source, row)); };
     }
     return made;
+}
+
+/// The same column, for values that may be below 0.
+template <class SomeColumn>
+constexpr SomeColumn with_sign(SomeColumn column) {
+    column.is_signed = true;
+    return column;
 }
 
 /// The column of a member that is a hash: std::uint64_t, optional or not.
@@ -203,6 +222,22 @@ base::JsonValue json_of(const Columns& columns, const Row& row) {
         }
     }
     return json;
+}
+
+/// Rows as a CSV file: header, a line each.
+template <class Columns, class Rows>
+std::string csv_rows(const Columns& columns, const Rows& rows) {
+    std::string text = csv_header(columns);
+    for (const auto& row : rows) { text += csv_line(columns, row); }
+    return text;
+}
+
+/// Rows as a JSON list.
+template <class Columns, class Rows>
+base::JsonValue json_rows(const Columns& columns, const Rows& rows) {
+    base::JsonValue list = base::JsonValue::list({});
+    for (const auto& row : rows) { list.push_back(json_of(columns, row)); }
+    return list;
 }
 
 /// The JSON schema of a row as json_of() writes it.

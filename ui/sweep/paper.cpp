@@ -151,7 +151,7 @@ CountedFrames counted_frames_of(const fs::path& recording) {
     CountedFrames times;
     report::FrameReader rows(recording / "frames.csv");
     while (const auto row = rows.next()) {
-        if (row->warm_up) { continue; }
+        if (!row->is_counted()) { continue; }
         times.time_s.push_back(row->sim_time_s);
         times.frame_ms.push_back(row->frame_ms);
     }

@@ -100,10 +100,10 @@ public:
             turn_s_ = std::max(turn_s_, count_ == 1 ? frames_in_turn * ran_s[s] / frames : 0.0);
         }
         round_s_ = round.s();
-        if (count_ == 1) {
-            same_frames_ =
-                recordings_[0].run.state_hash == recordings_[1].run.state_hash &&
-                report::flight_differences(recordings_[0], recordings_[1], &settings::comparison_role).empty();
+        const report::LoadedRecording& first = recordings_.front();
+        for (std::size_t i = recordings_.size() - 2; i < recordings_.size(); ++i) {
+            same_frames_ = same_frames_ && first.run.state_hash == recordings_[i].run.state_hash &&
+                           report::flight_differences(first, recordings_[i], &settings::comparison_role).empty();
         }
     }
 

@@ -9,6 +9,7 @@
 #include <csignal>
 #include <fmt/format.h>
 #include <thread>
+#include <utility>
 
 namespace octant::ui::sweep {
 
@@ -48,13 +49,16 @@ public:
         }
     }
 
-    void stop() { program_->signal_group(SIGSTOP); }
+    void stop() {
+        program_->signal_group(SIGSTOP);
+        is_stopped_ = true;
+    }
 
     /// Lets the program go on for this long, or until it ends.
     void go_on(Clock::duration duration) {
         constexpr Clock::duration look_every = std::chrono::milliseconds(5);
         const Clock::time_point start = Clock::now();
-        program_->signal_group(SIGCONT);
+        if (std::exchange(is_stopped_, false)) { program_->signal_group(SIGCONT); } // the program counts its pauses
         Clock::duration left = duration;
         while (left > Clock::duration::zero() && !has_landed()) {
             wait_for(std::min(left, look_every));
@@ -95,6 +99,7 @@ private:
 
     const TurnFlight& flight_;
     std::optional<report::ChildProgram> program_;
+    bool is_stopped_ = false;
     bool has_landed_ = false;
     double ran_s_ = 0.0;
 };

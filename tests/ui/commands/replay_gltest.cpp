@@ -175,7 +175,7 @@ TEST_CASE("rows that cannot be replayed are refused with their line") {
     write_file(damaged / "frames.csv", renamed);
     tests::check_refusal(replay(damaged), "frames.csv:1: expected a column triangle_target");
     write_file(damaged / "frames.csv", text + "60,x\n");
-    tests::check_refusal(replay(damaged), "frames.csv:62: expected 54 fields, got 2");
+    tests::check_refusal(replay(damaged), "frames.csv:62: expected 55 fields, got 2");
     fs::remove(damaged / "frames.csv");
     tests::check_refusal(replay(damaged), "frames.csv: expected a file, found none");
 }
@@ -196,7 +196,8 @@ TEST_CASE("adaptation is refused where there is nothing to adapt") {
         words.insert(words.begin(), {"fly", "straight", "--adapt", "terrain", "--frames", "2"});
         return run_octant(words);
     };
-    tests::check_refusal(fly({"--terrain-lod", "paper:control=damped"}), "--adapt terrain: expected --terrain-lod screen-error or exact");
+    tests::check_refusal(fly({"--terrain-lod", "paper:control=damped"}),
+        "--adapt terrain: expected --terrain-lod screen-error or exact");
     tests::check_refusal(fly({"--terrain", "background60"}), "expected ground with levels of detail");
     tests::check_refusal(run_octant({"fly", "straight", "--adapt", "terrain,sound"}),
         "--adapt: expected none or a list of terrain, shading, got 'terrain,sound'");

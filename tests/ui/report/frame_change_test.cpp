@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 
 #include <cmath>
+#include <utility>
 #include <vector>
 
 using namespace octant;
@@ -93,4 +94,65 @@ TEST_CASE("flights one after the other, with other frames or too few, are compar
     CHECK(few.share() == Approx(0.3).margin(0.03));
     for (auto& stage : flown.after[0].stage_ms) { stage.clear(); }
     CHECK_FALSE(frame_change(flown.before, flown.after).stage_changed);
+}
+
+TEST_CASE("frames in which a program was stopped are left out, whatever their times") {
+    RandomGenerator dice(5);
+    const Machine calm{0.0, 0.01, 0.0, 0.0};
+    Rounds flown = rounds_of(dice, calm, 6);
+    const FrameChange without = frame_change(flown.before, flown.after);
+    for (FrameTimes& flight : flown.after) {
+        flight.paused.assign(flight.frame_ms.size(), false);
+        for (std::size_t k = 0; k < flight.frame_ms.size(); k += 3) { // so many that no median shows them
+            flight.paused[k] = true;
+            flight.frame_ms[k] *= 1.02;
+        }
+    }
+    const FrameChange same = frame_change(flown.before, flown.after);
+    CHECK(same.share() == Approx(without.share()).margin(0.002));
+    CHECK_FALSE(same.change->low > 0.0);
+    for (FrameTimes& flight : flown.after) { flight.paused.clear(); }
+    CHECK(frame_change(flown.before, flown.after).share() == Approx(without.share() + 0.0067).margin(0.002));
+    // By medians alone, too.
+    for (FrameTimes& flight : flown.after) {
+        flight.paused.assign(flight.frame_ms.size(), false);
+        for (std::size_t k = 0; k < flight.frame_ms.size() / 2; ++k) {
+            flight.paused[k] = true;
+            flight.frame_ms[k] += 40.0;
+        }
+    }
+    const FrameChange figures = frame_change(flown.before, flown.after, {}, false);
+    CHECK(figures.frames == 190);
+    CHECK(std::abs(figures.share()) < 0.15);
+    // Where all frames have pauses they are compared all the same.
+    for (FrameTimes& flight : flown.after) { flight.paused.assign(flight.frame_ms.size(), true); }
+    CHECK(frame_change(flown.before, flown.after).change);
+}
+
+TEST_CASE("a change of some frames is found however many flights each side has, and none where there is none") {
+    RandomGenerator dice(6);
+    const Machine calm{0.0, 0.02, 0.5, 0.05, 40.0, 0.002};
+    for (const auto& [old_runs, new_runs] : {std::pair(3U, 10U), std::pair(10U, 3U), std::pair(4U, 5U)}) {
+        INFO(old_runs << " and " << new_runs << " flights");
+        std::vector<Side> order(old_runs, Side::Old);
+        order.insert(order.end(), new_runs, Side::New);
+        int found = 0;
+        int none = 0;
+        double sum = 0.0;
+        for (int trial = 0; trial < 20; ++trial) {
+            const auto flown = [&](unsigned count, Delay delay) {
+                std::vector<FrameTimes> flights;
+                for (unsigned i = 0; i < count; ++i) { flights.push_back(flight_of(dice, calm, 0.0, 190, delay)); }
+                return flights;
+            };
+            const std::vector<FrameTimes> before = flown(old_runs, {});
+            const FrameChange slower = frame_change(before, flown(new_runs, {1, 0.4, 100, 139}), order);
+            found += slower.change->low > 0.0 && slower.frames_changed ? 1 : 0;
+            sum += slower.share() / 20.0;
+            none += frame_change(before, flown(new_runs, {}), order).change->excludes_zero() ? 1 : 0;
+        }
+        CHECK(found >= 18);
+        CHECK(sum > 0.04); // 0.4 of a fifth of the frames, which are short ones
+        CHECK(none <= 4);
+    }
 }

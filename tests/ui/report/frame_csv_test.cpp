@@ -61,7 +61,7 @@ TEST_CASE("frames.csv begins with the columns that others rely on") {
     const std::string header = frame_csv_header();
     CHECK(header.substr(0, std::string(promised_columns).size()) == promised_columns);
     CHECK(header.substr(std::string(promised_columns).size()) ==
-          ",warm_up,record_ms,draw_calls,shadow_triangles,veil_triangles,cuts,unordered,eye_x_m,eye_"
+          ",warm_up,paused,record_ms,draw_calls,shadow_triangles,veil_triangles,cuts,unordered,eye_x_m,eye_"
           "y_m,eye_z_m,"
           "aircraft_x_m,aircraft_y_m,aircraft_z_m,aircraft_agl_m,triangle_target,fine_triangles,"
           "scenery_triangles,error_px,latency_ms,missed,smooth_polygons,smooth_target,aircraft_level,"
@@ -74,7 +74,7 @@ TEST_CASE("a line has fixed decimals whatever the locale") {
     std::setlocale(LC_NUMERIC, "de_DE.UTF-8");
     CHECK(frame_csv_line(full_record()) ==
           "7,0.350000,0.140000,15.8457,1.0000,2.0000,12.3457,0.5000,1007,12,43,26,0.125000,-5,0.3169,"
-          "0,1,3.2500,3,24,17,5,1,1.500,-2.250,3000000.000,4.000,5.000,6.000,61.250,1200,1900,800,"
+          "0,1,0,3.2500,3,24,17,5,1,1.500,-2.250,3000000.000,4.000,5.000,6.000,61.250,1200,1900,800,"
           "0.7500,21.5000,1,30,31,2,17,9,0.4375,0.2500,1.5000,0,,0,0,0,0.0000,-1,-1,"
           "00000000000000ab,\n");
     std::setlocale(LC_NUMERIC, "C");
@@ -150,7 +150,7 @@ TEST_CASE("damage is named by file and line") {
         return path.string() + ":";
     };
     std::string start = message(frame_csv_header() + line(0) + "1,2\n" + line(2));
-    CHECK_THROWS_WITH(read_frame_csv(path), start + "3: expected 54 fields, got 2");
+    CHECK_THROWS_WITH(read_frame_csv(path), start + "3: expected 55 fields, got 2");
     std::string bad = line(1);
     bad.replace(bad.find("4.5000"), 6, "4.5x");
     start = message(frame_csv_header() + line(0) + bad);

@@ -21,7 +21,7 @@ TEST_CASE("the machine is read from its files") {
     CHECK(info.memory_kb == 16384);
     CHECK(info.load_average_1min == 1.25);
     CHECK(info.os == "Some System 12");
-    CHECK(info.start_time_utc == "1970-01-01T00:00:00Z");
+    CHECK(info.start_time_utc == "1970-01-01T00:00:00.000Z");
     CHECK(info.cores >= 1);
     CHECK(info.cpu_times.total == 621);
     CHECK(info.cpu_times.idle == 450);
@@ -58,6 +58,8 @@ TEST_CASE("a flight is noisy when steal, others or, lacking these, the load say 
 
 TEST_CASE("a time is written as UTC") {
     using std::chrono::system_clock;
-    CHECK(utc_text(system_clock::from_time_t(1767225599)) == "2025-12-31T23:59:59Z");
-    CHECK(utc_text(system_clock::from_time_t(951782400)) == "2000-02-29T00:00:00Z");
+    CHECK(utc_text(system_clock::from_time_t(1767225599)) == "2025-12-31T23:59:59.000Z");
+    CHECK(utc_text(system_clock::from_time_t(951782400)) == "2000-02-29T00:00:00.000Z");
+    CHECK(utc_text(system_clock::from_time_t(951782400) + std::chrono::microseconds(42999)) ==
+          "2000-02-29T00:00:00.042Z");
 }

@@ -303,6 +303,25 @@ TEST_CASE("the MangoHud log has its exact headers and leaves out the warm-up") {
           "125.000,8.0000,0,0,0,0,0,0,0,0,0,0,0,0,0,48000000\n");
 }
 
+TEST_CASE("frames in which the program was stopped are told in a note and count in no figure") {
+    const ScratchFolder scratch;
+    RecordingWriter recording(scratch / "rec", made_up_info());
+    for (int frame = 0; frame < 10; ++frame) {
+        FrameRecord record = made_up_frame(frame, frame == 5 ? 90.0 : 4.5);
+        record.paused = frame == 5 || frame == 0;
+        recording.add(record);
+    }
+    recording.finish({0xabc, {}, {2000, 900, 30, 500}});
+    const LoadedRecording loaded = load_recording(scratch / "rec");
+    CHECK(loaded.statistics.frames == 7);
+    CHECK(loaded.statistics.max_ms == 8.0);
+    CHECK(loaded.disagreement.empty());
+    CHECK(loaded.flight.paused_frames() == 1);
+    CHECK(loaded.flight.frames() == 10);
+    CHECK(lines_in(scratch / "rec/mangohud.csv") == 3 + 7);
+    CHECK(value_of(loaded.run.facts, "note") == pauses_note(1));
+}
+
 TEST_CASE("the trace holds every frame with its stages one after the other") {
     const ScratchFolder scratch;
     record_frames(scratch / "rec", {made_up_frame(0, 4.5), made_up_frame(1, 4.5), made_up_frame(2, 14.5)});

@@ -73,6 +73,20 @@ TEST_CASE("warm-up frames are left out of the figures") {
     CHECK(statistics_of(records).max_ms == 10.0);
 }
 
+TEST_CASE("frames in which the program was stopped are left out of the figures and are never among the slowest") {
+    std::vector<FrameRecord> records{made_up_frame(2, 4.5), made_up_frame(3, 90.0), made_up_frame(4, 5.5)};
+    records[1].paused = true;
+    const Statistics figures = statistics_of(records);
+    CHECK(figures.frames == 2);
+    CHECK(figures.max_ms == 9.0);
+    CHECK(figures.overruns_16ms == 0);
+    CHECK(figures.jitter_ms == 1.0);
+    SlowFrameList slow;
+    for (const FrameRecord& record : records) { slow.add(record); }
+    CHECK(slow.slowest().size() == 2);
+    CHECK(slow.slowest().front().record.frame == 4);
+}
+
 TEST_CASE("the figures are named as run.json names them") {
     std::vector<std::string> keys;
     for (const Statistic& statistic : all_statistics()) { keys.emplace_back(statistic.key); }

@@ -185,3 +185,14 @@ TEST_CASE("no program is left, running or stopped, when the one that flies them 
     CHECK(WIFSIGNALED(status));
     CHECK(both_go_away(folder, "Z"));
 }
+
+TEST_CASE("a program that watches for signals counts how often it went on after a stop") {
+    const int before = ui::base::StopSignals::pauses();
+    ::raise(SIGCONT);
+    CHECK(ui::base::StopSignals::pauses() == before);
+    const ui::base::StopSignals stop_signals;
+    ::raise(SIGCONT);
+    ::raise(SIGCONT);
+    CHECK(ui::base::StopSignals::pauses() == before + 2);
+    CHECK_FALSE(ui::base::StopSignals::received());
+}
