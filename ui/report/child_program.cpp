@@ -40,14 +40,6 @@ std::string all_of(int descriptor) {
     }
 }
 
-std::string last_line(const std::string& text) {
-    std::string_view last;
-    for (const std::string_view line : split_lines(text)) {
-        if (!split_words(line).empty()) { last = line; }
-    }
-    return std::string(last);
-}
-
 std::string exit_text(int status) {
     if (WIFSIGNALED(status)) { return fmt::format("ended by signal {}", WTERMSIG(status)); }
     return fmt::format("ended with exit code {}", WEXITSTATUS(status));
@@ -104,6 +96,14 @@ int fork_bound(pid_t& process, const std::vector<std::string>& words, const std:
 }
 
 } // namespace
+
+std::string last_line_of(const std::string& text) {
+    std::string_view last;
+    for (const std::string_view line : split_lines(text)) {
+        if (!split_words(line).empty()) { last = line; }
+    }
+    return std::string(last);
+}
 
 std::optional<ChildProgram> ChildProgram::start(
     const std::vector<std::string>& words, const std::filesystem::path& log) {
@@ -207,7 +207,7 @@ ProgramResult ChildProgram::finish() {
     ending.succeeded = WIFEXITED(status) && WEXITSTATUS(status) == 0;
     ending.output = all_of(output_);
     ending.errors = all_of(error_pipe_);
-    ending.last_error_line = last_line(ending.errors);
+    ending.last_error_line = last_line_of(ending.errors);
     if (ending.last_error_line.empty() && !ending.succeeded) { ending.last_error_line = exit_text(status); }
     return ending;
 }

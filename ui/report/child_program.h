@@ -18,6 +18,9 @@ struct ProgramResult {
     std::string last_error_line; ///< last line of its standard error, or how it ended
 };
 
+/// The last line of a program's output that has something in it; empty where none has.
+std::string last_line_of(const std::string& text);
+
 /// A child process that reads its standard input from us; no shell is involved. It has a process group of its own:
 /// Ctrl-C reaches only us, and when we are killed it meets the end of its input and finishes in order.
 class ChildProgram {
@@ -28,7 +31,7 @@ public:
         const std::vector<std::string>& words, const std::filesystem::path& log = {});
 
     /// As start(), but the system kills the program when the calling thread ends, by SIGKILL too: for programs that are
-    /// stopped by signals, which could not see the end of their input.
+    /// stopped by signals, which could not see the end of their input, or that must not outlive us.
     static std::optional<ChildProgram> start_bound(
         const std::vector<std::string>& words, const std::filesystem::path& log);
 

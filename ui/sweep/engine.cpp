@@ -147,7 +147,8 @@ private:
             "--record", folder_.recording(run.name).string(), "--if-new", "--quiet", "--machine-sharing",
             options_.machine_sharing};
         if (options_.videos) { words.insert(words.end(), {"--video", folder_.video(run.name).string()}); }
-        auto program = ChildProgram::start(words, folder_.log(run.name));
+        // A flight that outlived the sweep would hold its recording against the next call.
+        auto program = ChildProgram::start_bound(words, folder_.log(run.name));
         if (!program) { throw Error(fmt::format("{} cannot be started: No such program", options_.program)); }
         program->end_input();
         flying_.push_back({run.name, std::move(*program)});

@@ -5,6 +5,7 @@
 #include "sim/base/text_file.h"
 #include "ui/base/stop_signals.h"
 #include "ui/flight/flight_recorder.h"
+#include "ui/report/child_program.h"
 #include "ui/report/run_file.h"
 #include "ui/report/statistics.h"
 #include "ui/settings/settings_file.h"
@@ -21,18 +22,6 @@ namespace octant::ui::sweep {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// The last line that a run's log has something in.
-std::string last_log_line(const fs::path& log) {
-    std::error_code ignored;
-    if (!fs::is_regular_file(log, ignored)) { return {}; }
-    std::string last;
-    const std::string text = read_file(log);
-    for (const std::string_view line : split_lines(text)) {
-        if (!split_words(line).empty()) { last = line; }
-    }
-    return last;
-}
 
 bool follows_clock(const settings::RunSettings& settings) { return settings.adapt.terrain || settings.adapt.shading; }
 
@@ -114,7 +103,7 @@ namespace {
 /// Sets state and fault of a run that is not done. `is_recorded`: it has a run.json.
 void set_fault(const SweepFolder& folder, bool is_recorded, RunResult& result) {
     if (!path_exists(folder.log(result.name))) { return; }
-    const std::string last = last_log_line(folder.log(result.name));
+    const std::string last = report::last_line_of(read_file(folder.log(result.name)));
     std::string stopped =
         is_recorded ? report::read_run_file(folder.recording(result.name) / "run.json").stopped : std::string();
     if (stopped.empty() && last.empty()) { stopped = base::StopSignals::name(); } // killed while it loaded its world
@@ -170,23 +159,11 @@ std::vector<std::string> hash_mismatches(const Sweep& sweep, std::span<const Run
 
 std::span<const report::Column<RunResult>> result_columns() {
     using R = RunResult;
-    constexpr auto state_column = [] {
-        auto column =
-            report::column<&R::name>("state", "state", 0, "flown, failed, stopped (by a signal) or not begun");
-        column.text = [](const R& run) { return text_of(run.state); };
-        return column;
-    };
-    constexpr auto done_column = [] {
-        report::Column<R> column;
-        column.key = column.name = "done";
-        column.kind = report::ColumnKind::Truth;
-        column.value = [](const R& run) { return run.done() ? 1.0 : 0.0; };
-        return column;
-    };
     static constexpr std::array columns{
         report::column<&R::name>("name", "flight"),
-        state_column(),
-        done_column(),
+        report::column<[](const R& run) { return text_of(run.state); }>(
+            "state", "state", 0, "flown, failed, stopped (by a signal) or not begun"),
+        report::column<&R::done>("done", "done"),
         report::column<&R::host>("host", "machine"),
         recorded_hash<&R::state_hash>("state_hash", "states"),
         recorded_hash<&R::picture_hash>("picture_hash", "pictures"),

@@ -39,8 +39,7 @@ std::string cells(const std::optional<glm::dvec3>& place) {
 
 std::string csv_text(const QueryResults& answers) {
     std::string text;
-    if (!answers.points.empty()) { text += report::csv_header(query_columns()); }
-    for (const QueryPointResult& answer : answers.points) { text += report::csv_line(query_columns(), answer); }
+    if (!answers.points.empty()) { text += report::csv_rows(query_columns(), answers.points); }
     if (answers.sight) {
         const LineOfSightAnswer& sight = *answers.sight;
         text += fmt::format("visible,clearance_m,lowest_x_m,lowest_y_m,lowest_z_m,hidden_x_m,hidden_y_m,"
@@ -134,10 +133,7 @@ LineOfSightAnswer drawn_line_of_sight(const DrawnMesh& drawn, const glm::dvec3& 
 std::string query_text(const QueryResults& answers, bool json) {
     if (!json) { return csv_text(answers); }
     JsonValue whole;
-    whole["points"] = JsonValue::list({});
-    for (const QueryPointResult& answer : answers.points) {
-        whole["points"].push_back(report::json_of(query_columns(), answer));
-    }
+    whole["points"] = report::json_rows(query_columns(), answers.points);
     if (answers.sight) {
         const LineOfSightAnswer& sight = *answers.sight;
         whole["sight"] = {{"visible", sight.visible}, {"clearance_m", sight.clearance_m},

@@ -7,8 +7,11 @@
 
 #include <catch2/catch.hpp>
 
+#include <chrono>
+#include <csignal>
 #include <cstdlib>
 #include <filesystem>
+#include <thread>
 
 using namespace octant;
 using Catch::Contains;
@@ -73,6 +76,26 @@ TEST_CASE("a sweep flies what is not done yet, tells what failed, and reports al
     CHECK(differs.exit_code == 1);
     CHECK_THAT(differs.out, Contains("pictures of turn-concave-r1 on "));
     CHECK_THAT(read_file(out / "report.html"), Contains("<td>pictures of turn-concave-r1 on "));
+}
+
+TEST_CASE("a flight does not outlive a sweep that is killed, and its recording is free") {
+    const auto made = tests::empty_folder("sweep");
+    const std::string file = (made / "long.toml").string();
+    write_file(file, "[settings]\nsize = \"64x48\"\nframes = 200000\nterrain = \"background60\"\n"
+                     "[vary]\npath = [\"straight\"]\n");
+    const fs::path out = made / "out";
+    const fs::path rows = out / "runs/straight/frames.csv";
+    CHECK(tests::run_octant_and_signal({"sweep", file, "--out", out.string(), "--quiet"}, rows, SIGKILL).exit_code ==
+          128 + SIGKILL);
+    std::this_thread::sleep_for(std::chrono::milliseconds(500));
+    const auto bytes = fs::file_size(rows);
+    std::this_thread::sleep_for(std::chrono::milliseconds(1500)); // rows are written each half second
+    CHECK(fs::file_size(rows) == bytes);
+    // Its recording is free.
+    const tests::ProgramRun again = run_octant({"fly", "--settings", (out / "jobs/straight.json").string(), "--frames",
+        "2", "--record", (out / "runs/straight").string(), "--quiet"});
+    INFO(again.err);
+    CHECK(again.exit_code == 0);
 }
 
 TEST_CASE("a sweep goes on past flights that fail, and tries them again") {

@@ -386,9 +386,7 @@ namespace {
 
 void print_results(const std::vector<BenchResult>& results, bool json) {
     if (json) {
-        auto scenes = base::JsonValue::list({});
-        for (const BenchResult& result : results) { scenes.push_back(report::json_of(bench_columns(), result)); }
-        base::print_value({{"scenes", scenes}}, true);
+        base::print_value({{"scenes", report::json_rows(bench_columns(), results)}}, true);
         return;
     }
     report::ResultTable table;
