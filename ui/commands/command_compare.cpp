@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <fmt/format.h>
@@ -64,8 +65,9 @@ struct SideResult {
 struct Comparison {
     std::vector<FlightComparison> flights;
     std::array<SideResult, 2> sides;
-    std::vector<report::LoadedRecording> recordings; ///< for the page
-    std::string how;                                 ///< the flights were flown, or "existing recordings"
+    std::vector<report::LoadedRecording> recordings;                            ///< for the page
+    report::ResultTable without_pauses{.title = "Figures that contain pauses"}; ///< programs that do not record them
+    std::string how; ///< the flights were flown, or "existing recordings"
 
     std::vector<report::FlightChange> changes() const {
         std::vector<report::FlightChange> changes;
@@ -91,7 +93,7 @@ bool belongs_to_comparison(const fs::path& folder) {
     std::error_code code;
     return std::ranges::all_of(fs::directory_iterator(folder, code), [&](const fs::directory_entry& entry) {
         const std::string name = entry.path().filename().string();
-        return entry.is_directory() ? path_exists(entry.path() / "old.json") &&
+        return entry.is_directory() ? (path_exists(entry.path() / "old.json") || fs::is_empty(entry.path(), code)) &&
                                           std::ranges::all_of(fs::directory_iterator(entry.path(), code),
                                               [](const fs::directory_entry& part) {
                                                   const std::string own = part.path().filename().string();
@@ -101,8 +103,24 @@ bool belongs_to_comparison(const fs::path& folder) {
     });
 }
 
-/// Makes the folder of a comparison, or empties that of an earlier one.
-void prepare_folder(const fs::path& folder, bool quiet) {
+/// Whether a file or folder is the folder itself or lies in it.
+bool is_in(const fs::path& folder, const fs::path& path) {
+    std::error_code code;
+    const fs::path way = fs::weakly_canonical(path, code).lexically_relative(fs::weakly_canonical(folder, code));
+    return !way.empty() && *way.begin() != "..";
+}
+
+/// Makes the folder of a comparison, or empties that of an earlier one. Throws Error where what is compared lies in it.
+void prepare_folder(const fs::path& folder, const CompareOptions& options) {
+    std::vector<fs::path> inputs(options.sides.begin(), options.sides.end());
+    inputs.insert(inputs.end(), options.settings.begin(), options.settings.end());
+    for (const fs::path& input : inputs) {
+        if (path_exists(folder) && is_in(folder, input)) {
+            throw_error_in(folder, fmt::format("expected a folder without what is compared, got one with {}; --out "
+                                               "names another",
+                                       input.string()));
+        }
+    }
     if (path_exists(folder) && (!is_folder(folder) || !belongs_to_comparison(folder))) {
         throw_error_in(folder, "expected an empty folder or that of a comparison, got another; --out names one");
     }
@@ -110,7 +128,7 @@ void prepare_folder(const fs::path& folder, bool quiet) {
     std::error_code code;
     const std::vector<fs::directory_entry> old_entries(fs::directory_iterator(folder, code), {});
     if (!old_entries.empty()) {
-        base::print_note(quiet, fmt::format("note: {}: the comparison there is replaced", folder.string()));
+        base::print_note(options.quiet, fmt::format("note: {}: the comparison there is replaced", folder.string()));
     }
     for (const fs::directory_entry& entry : old_entries) { fs::remove_all(entry.path(), code); }
 }
@@ -151,9 +169,29 @@ FlightPlan flight_plan(const CompareOptions& options, ComparedKind kind) {
     return plan;
 }
 
+/// Names a program that flew in turns and does not record when it was stopped, as earlier versions: some of its frames
+/// contain turns of the other one.
+void check_pauses(const sweep::ComparedProgram& program, const sweep::FlownRounds& flown, std::size_t side,
+    report::ResultTable& without_pauses) {
+    bool had_turns = false;
+    int paused_frames = 0;
+    for (std::size_t i = side; i < flown.recordings.size(); i += 2) {
+        const report::LoadedRecording& recording = flown.recordings[i];
+        const report::Statistics& statistics = recording.statistics;
+        had_turns = had_turns || 1e-3 * statistics.mean_ms * statistics.frames > 3.0 * flown.turn_s.value_or(HUGE_VAL);
+        paused_frames += recording.flight.paused_frames();
+    }
+    if (had_turns && paused_frames == 0) {
+        without_pauses.add({{"program", program.name},
+            {"what",
+                "does not record when it is stopped: its means, percentiles from P90, longest frames, 1 % lows and "
+                "overruns contain turns of the other program; the change does not"}});
+    }
+}
+
 Comparison fly_comparison(const CompareOptions& options, ComparedKind kind, const fs::path& folder) {
     const FlightPlan plan = flight_plan(options, kind);
-    prepare_folder(folder, options.quiet);
+    prepare_folder(folder, options);
     const base::StopSignals stop_signals;
     RandomGenerator dice(static_cast<std::uint64_t>(options.seed));
     Comparison comparison;
@@ -162,6 +200,9 @@ Comparison fly_comparison(const CompareOptions& options, ComparedKind kind, cons
             sweep::fly_rounds(plan.programs, flight, folder / flight.name, options.rounds, dice, options.quiet);
         if (comparison.recordings.empty()) {
             for (std::size_t s = 0; s < 2; ++s) { comparison.sides[s] = side_result(flown.recordings[s]); }
+        }
+        for (std::size_t s = 0; s < 2 && comparison.without_pauses.rows.size() < 2; ++s) {
+            check_pauses(plan.programs[s], flown, s, comparison.without_pauses);
         }
         comparison.how = flown.turn_s ? "in turns" : "alternately";
         FlightComparison result{std::move(flown.change), {flight.name, {}}, flown.recordings.front().run.settings,
@@ -185,20 +226,21 @@ Comparison fly_comparison(const CompareOptions& options, ComparedKind kind, cons
 Comparison compare_recordings(const CompareOptions& options) {
     Comparison comparison;
     comparison.how = "existing recordings";
-    comparison.recordings = load_side(options.sides[0]);
+    std::vector<std::string> notes;
+    comparison.recordings = load_side(options.sides[0], notes);
     const std::size_t old_count = comparison.recordings.size();
-    std::ranges::move(load_side(options.sides[1]), std::back_inserter(comparison.recordings));
+    std::ranges::move(load_side(options.sides[1], notes), std::back_inserter(comparison.recordings));
     for (const report::LoadedRecording& recording : comparison.recordings) {
-        if (recording.ended_early || !recording.run.stopped.empty()) {
-            base::print_note(options.quiet, fmt::format("note: {} ended early, after {} frames", recording.display_name,
-                                                recording.flight.frames()));
+        std::ranges::move(notes_on(recording), std::back_inserter(notes));
+        if (!recording.disagreement.empty()) {
+            notes.push_back(
+                fmt::format("{}: rows and summary disagree: {}", recording.display_name, recording.disagreement));
         }
     }
     const MatchedFlights matched =
         matched_flights(comparison.recordings, old_count, {options.sides[0].string(), options.sides[1].string()});
-    for (const std::string& name : matched.unmatched) {
-        base::print_note(options.quiet, fmt::format("note: {}: the other side has no flight like it", name));
-    }
+    notes.insert(notes.end(), matched.notes.begin(), matched.notes.end());
+    for (const std::string& note : notes) { base::print_note(options.quiet, "note: " + note); }
     if (matched.flights.empty()) {
         throw_error_in(options.sides[1],
             fmt::format("expected recordings of flights that {} has, got others", options.sides[0].string()));
@@ -299,12 +341,6 @@ base::JsonValue json_of(const CompareOptions& options, const Comparison& compari
     return json;
 }
 
-std::string csv_of(std::span<const report::FlightChange> changes) {
-    std::string text = report::csv_header(report::change_columns());
-    for (const report::FlightChange& each : changes) { text += report::csv_line(report::change_columns(), each); }
-    return text;
-}
-
 void compare(const CompareOptions& options) {
     const ComparedKind kind = compared_kind(options.sides);
     const bool is_flown = kind != ComparedKind::Recordings;
@@ -313,7 +349,7 @@ void compare(const CompareOptions& options) {
     }
     const std::optional<fs::path> out = is_flown ? options.out.value_or("octant-compare") : options.out;
     const fs::path folder = out ? absolute_path(*out) : fs::path();
-    if (out && !is_flown) { prepare_folder(folder, options.quiet); }
+    if (out && !is_flown) { prepare_folder(folder, options); }
     Comparison comparison = is_flown ? fly_comparison(options, kind, folder) : compare_recordings(options);
     std::vector<report::FlightChange> changes = comparison.changes();
     report::adjust_for_number(changes);
@@ -325,13 +361,14 @@ void compare(const CompareOptions& options) {
     const std::string page = out ? (*out / "compare.html").string() : std::string();
     const base::JsonValue json = json_of(options, comparison, verdict, answer, page);
     if (out) {
-        const std::vector<report::ResultTable> pictures = picture_tables(comparison, folder);
+        std::vector<report::ResultTable> tables = picture_tables(comparison, folder);
+        if (!comparison.without_pauses.rows.empty()) { tables.push_back(comparison.without_pauses); }
         const std::vector<report::ComparedFlight> runs = comparison.runs();
-        write_file(folder / "compare.csv", csv_of(changes));
+        write_file(folder / "compare.csv", report::csv_rows(report::change_columns(), changes));
         write_file(folder / "compare.json", base::json_of_results(json));
-        write_file(
-            folder / "compare.html", report::html_report(comparison.recordings,
-                                         {pictures, folder, runs, changes, options.limit, options.rounds.within}));
+        write_file(folder / "compare.html",
+            report::html_report(comparison.recordings,
+                {tables, folder, runs, changes, options.limit, options.rounds.within, &settings::comparison_role}));
     }
     if (options.json) {
         base::print_value(json, true);
@@ -375,10 +412,9 @@ std::vector<Option> options_of(CompareOptions& options) {
                 "repeatable [a turn over hills, 640x360, 200 frames]",
                 Arity::Repeatable, options.settings),
             percent_option(
-                "--within", "width of the change's interval at which a flight's rounds end", options.rounds.within),
-            percent_option("--limit", "slowdown that is allowed", options.limit),
-            value_option(
-                {"max-seconds", "S", "time after which no round of a flight begins; three are flown", 0.0, 1e6},
+                "--within", "end when the 95 % interval of the change is this wide or less", options.rounds.within),
+            percent_option("--limit", "slowdown that is allowed: up to it the exit code is 0", options.limit),
+            value_option({"max-seconds", "S", "time for the rounds of a flight; three are flown in any case", 0.0, 1e6},
                 options.rounds.max_seconds),
             value_option({"rounds", "N", "fly exactly this many rounds", 1, 1000}, options.rounds.rounds),
             value_option({"seed", "N", "random seed of the order of turns", 0, 1e9}, options.seed),
@@ -394,9 +430,15 @@ Command compare_command() {
     return {.name = "compare",
         .summary = "Tells whether frames got slower between two programs, settings or sets of recordings",
         .options = options_of(*options),
-        .footer = "The programs fly at the same time in short turns, round after round, so that the speed of the "
-                  "machine is the same for both. The first line is the answer, with the 95 % interval of the change.\n"
-                  "Exit code 0: no slowdown beyond --limit. 1: slower. 3: cannot tell. 2: invalid input.\n"
+        .footer = "Two programs fly the same flight, or this program flies two settings files, in rounds of one flight "
+                  "each. Both fly at the same time in short turns, so that the speed of the machine is the same for "
+                  "both. Recordings are compared as they are; three or more of each flight are needed on each side.\n"
+                  "The first line is the answer, such as\n"
+                  "  3.1 % slower (2.4 to 3.9 %); frames 210-260, plan stage +0.8 ms\n"
+                  "In brackets is the 95 % interval. Frames and stage are those that changed for certain; pictures of "
+                  "these frames are in the folder. compare.html shows all.\n"
+                  "Exit code 0: no slowdown beyond --limit. 1: slower. 2: invalid input. 3: cannot tell: too few runs, "
+                  "or an interval too wide for --within; more --max-seconds make it narrower.\n"
                   "Examples:\n"
                   "  octant compare old/octant new/octant --limit 1%\n"
                   "  octant compare old/octant new/octant --settings flight.json --within 1% --max-seconds 60\n"

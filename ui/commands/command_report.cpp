@@ -3,6 +3,7 @@
 #include "ui/base/json_value.h"
 #include "ui/base/progress.h"
 #include "ui/commands/commands.h"
+#include "ui/commands/compare_inputs.h"
 #include "ui/report/comparison.h"
 #include "ui/report/html_report.h"
 #include "ui/report/loaded_recording.h"
@@ -43,15 +44,6 @@ base::JsonValue results_of_run(const report::LoadedRecording& recording) {
         {"summary", report::json_of(report::all_statistics(), recording.statistics)}};
 }
 
-/// Says what was left out, guessed or mended in frame times that another program recorded.
-void print_capture_notes(const ReportOptions& options, const report::LoadedRecording& recording) {
-    for (const auto& [name, value] : recording.run.facts) {
-        if (!recording.capture_format.empty() && name == "note") {
-            base::print_note(options.quiet, fmt::format("note: {}: {}", printable(recording.display_name), value));
-        }
-    }
-}
-
 void make_report(const ReportOptions& options) {
     const std::optional<report::Gate> gate =
         options.gate.empty() ? std::nullopt : std::optional(report::read_gate(options.gate));
@@ -61,11 +53,7 @@ void make_report(const ReportOptions& options) {
     }
     const std::vector<report::LoadedRecording> recordings = report::load_recordings(options.folders);
     for (const report::LoadedRecording& recording : recordings) {
-        print_capture_notes(options, recording);
-        if (recording.ended_early) {
-            base::print_note(options.quiet, fmt::format("note: {} ended early, after {} frames", recording.display_name,
-                                                recording.flight.frames()));
-        }
+        for (const std::string& note : notes_on(recording)) { base::print_note(options.quiet, "note: " + note); }
     }
     const std::filesystem::path first = options.folders.front();
     if (options.out.empty() && std::filesystem::is_regular_file(first)) {
@@ -76,17 +64,19 @@ void make_report(const ReportOptions& options) {
         report::compared_flights(recordings, &settings::comparison_role, options.baseline);
     const std::vector<report::FlightChange> changes =
         report::flight_changes(recordings, flights, &settings::comparison_role);
-    write_file(
-        file, report::html_report(recordings,
-                  {.folder = std::filesystem::absolute(file).parent_path(), .flights = flights, .changes = changes}));
+    write_file(file, report::html_report(recordings, {.folder = std::filesystem::absolute(file).parent_path(),
+                                                         .flights = flights,
+                                                         .changes = changes,
+                                                         .roles = &settings::comparison_role}));
     base::print_note(options.quiet, fmt::format("report: {}", file.string()));
     const report::GateResult gate_result =
         gate ? report::gate_result(recordings, flights, *gate) : report::GateResult();
     if (options.json) {
         base::JsonValue list = base::JsonValue::list({});
         std::ranges::for_each(recordings, [&](const auto& each) { list.push_back(results_of_run(each)); });
-        base::print_value({{"report", file.string()}, {"recordings", list}, {"gate_faults", gate_result.failures},
-                              {"gate_undecided", gate_result.undecided}},
+        base::print_value({{"report", file.string()}, {"recordings", list},
+                              {"changes", report::json_rows(report::change_columns(), changes)},
+                              {"gate_faults", gate_result.failures}, {"gate_undecided", gate_result.undecided}},
             true);
     } else {
         for (const report::LoadedRecording& recording : recordings) {
@@ -104,6 +94,7 @@ void make_report(const ReportOptions& options) {
     const bool cut =
         std::ranges::any_of(recordings, [](const auto& recording) { return !recording.disagreement.empty(); });
     if (!gate_result.failures.empty() || cut) { throw CheckFailed(); }
+    if (!gate_result.undecided.empty()) { throw CheckFailed{exit_cannot_tell}; }
 }
 
 } // namespace
@@ -124,16 +115,20 @@ Command report_command() {
                         "recording, or variant as the page names it, with which the others are compared",
                         options->baseline)),
                 text_option("--gate", "FIGURE=N%,...",
-                    "exit code 1 when a statistic of a recording exceeds that of the first recording by more than N %",
+                    "exit code 1 when a figure (p50, p95, p99, mean, ...) of a variant is more than N % above the "
+                    "baseline's, the 95 % interval over three runs or more of each counted",
                     options->gate)}),
-        .footer = "Exit code 1 where a recording's rows are not those of its summary; the page is "
-                  "written and says so.\n"
+        .footer = "Recordings of one flight are variants where settings of drawing or the program differ, else repeats "
+                  "of a variant. The page of several begins with what changed from the baseline.\n"
                   "Of a file with frame times of several applications or swap chains only those of the swap chain "
                   "with the most frames are taken.\n"
+                  "Exit code 0: done. 1: a gate fails, or a recording's rows are not those of its summary (the page "
+                  "says so). 2: invalid input. 3: a gate cannot tell: nothing to compare, or fewer than three runs.\n"
                   "Examples:\n"
                   "  octant report my-flight\n"
                   "  octant report octant-run depth-buffer-run --out both.html\n"
-                  "  octant report before after --gate p50=500%,p99=900% --out change.html\n"
+                  "  octant report b1 b2 b3 a1 a2 a3 --gate p50=5%,p99=10% --out change.html\n"
+                  "  octant report exact-1 paper-1 exact-2 paper-2 --baseline exact-1 --json --out both.html\n"
                   "  octant report presentmon.csv mangohud.csv --out captures.html",
         .run = [options] { make_report(*options); }};
 }

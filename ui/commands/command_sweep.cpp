@@ -230,7 +230,11 @@ void write_results(const sweep::Sweep& sweep, const sweep::SweepFolder& folder,
     const auto flights = report::compared_flights(recordings, &settings::comparison_role);
     const auto changes = report::flight_changes(recordings, flights, &settings::comparison_role);
     write_file(
-        folder.path() / "report.html", report::html_report(recordings, {problems, folder.path(), flights, changes}));
+        folder.path() / "report.html", report::html_report(recordings, {.first_tables = problems,
+                                                                           .folder = folder.path(),
+                                                                           .flights = flights,
+                                                                           .changes = changes,
+                                                                           .roles = &settings::comparison_role}));
 }
 
 void print_end(const sweep::Sweep& sweep, const std::vector<sweep::RunResult>& results,
@@ -238,14 +242,11 @@ void print_end(const sweep::Sweep& sweep, const std::vector<sweep::RunResult>& r
     using sweep::RunState;
     const std::size_t done = count_of(results, RunState::Flown);
     if (json) {
-        base::JsonValue runs = base::JsonValue::list({});
-        for (const sweep::RunResult& result : results) {
-            runs.push_back(report::json_of(sweep::result_columns(), result));
-        }
         base::print_value(
             {{"name", sweep.name}, {"flown", machine_sharing}, {"done", done}, {"of", results.size()},
                 {"failed", count_of(results, RunState::Failed)}, {"stopped", count_of(results, RunState::Stopped)},
-                {"not_begun", count_of(results, RunState::NotBegun)}, {"differences", hash_mismatches}, {"runs", runs}},
+                {"not_begun", count_of(results, RunState::NotBegun)}, {"differences", hash_mismatches},
+                {"runs", report::json_rows(sweep::result_columns(), results)}},
             true);
         return;
     }
@@ -323,8 +324,7 @@ std::vector<Option> options_of(SweepOptions& options) {
             flag("--list", "print the names of the flights without running them", options.list),
             choice_option("--on", "ENGINE",
                 "where flights run: local (processes on this machine), slurm (a job array) or parallel (GNU parallel "
-                "over "
-                "ssh); all machines must see the folder under the same name",
+                "over ssh); all machines must see the folder under the same name",
                 {"local", "slurm", "parallel"}, options.on),
             value_option({"split", "N", "render each flight in N parts of consecutive frames and join them", 2, 10000},
                 options.split),
@@ -369,18 +369,25 @@ Command sweep_command() {
     return {.name = "sweep",
         .summary = "Runs a batch of flights from a parameter table and writes one report",
         .options = options_of(*options),
-        .footer = "Examples:\n"
+        .footer = "A table, here of 12 flights:\n"
+                  "  repeats = 3\n"
+                  "  [settings]                      # options of octant fly\n"
+                  "  size = \"640x360\"\n"
+                  "  [vary]                          # all combinations are flown\n"
+                  "  path = [\"straight\", \"turn\"]\n"
+                  "  triangles = [2000, 4000]\n"
+                  "Examples:\n"
                   "  octant sweep budgets.toml --list\n"
                   "  octant sweep budgets.toml --out budgets\n"
                   "  octant sweep budgets.toml --on slurm --batch minutes=30 --sbatch=--partition=long\n"
                   "  octant sweep budgets.toml --on parallel --batch hosts=machines.txt\n"
                   "  octant sweep long.toml --split 4 --batch share-cores --video\n"
                   "  octant sweep budgets.toml --out budgets --paper\n"
-                  "Flights that are done are not flown again. All first repeats are flown before all second ones, in "
-                  "an order shuffled by the sweep's name; results stand in the order of the file.\n"
-                  "Exit code 1: a flight failed or has not begun, or flights with the same settings have different "
-                  "hashes. Exit code 2: the scheduler refused the flights; its message is printed. A sweep that a "
-                  "signal stopped ends by that signal.",
+                  "Flights that are done are not flown again. All first repeats are flown before all second ones, "
+                  "shuffled in each; results stand in the order of the file.\n"
+                  "Exit code 0: all flights are done. 1: a flight failed or has not begun, or flights with the same "
+                  "settings have different hashes. 2: invalid input, or the scheduler refused the flights. A sweep "
+                  "that a signal stopped ends by that signal.",
         .run = [options] { run_sweep(*options); }};
 }
 

@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <map>
 #include <set>
 #include <unistd.h>
@@ -25,34 +26,50 @@ namespace {
 namespace fs = std::filesystem;
 using Indices = std::vector<std::size_t>;
 
-/// Whether a file holds frame times that another program recorded.
-bool holds_capture(const fs::path& file) {
+/// Why a file holds no frame times that another program recorded; empty where it holds them.
+std::string capture_fault(const fs::path& file) {
     try {
         report::read_frame_capture(file);
-        return true;
-    } catch (const Error&) { return false; }
+        return {};
+    } catch (const Error& fault) { return fault.what(); }
+}
+
+bool may_be_capture(const fs::path& path) {
+    const std::string ending = extension_of(path);
+    return is_file(path) && (ending == ".csv" || ending == ".json");
 }
 
 bool is_recording(const fs::path& path) {
-    const std::string ending = extension_of(path);
-    const bool may_be_capture = ending == ".csv" || ending == ".json";
     return is_folder(path) ? report::is_run_file(path / "run.json")
-                           : is_file(path) && (ending == ".zip" || (may_be_capture && holds_capture(path)));
+                           : is_file(path) && (extension_of(path) == ".zip" ||
+                                                  (may_be_capture(path) && capture_fault(path).empty()));
 }
 
-/// The recordings in a folder, in the order of their names.
-std::vector<fs::path> recordings_in(const fs::path& folder) {
+/// The recordings in a folder, in the order of their names. Where there are captures, notes name other tables.
+std::vector<fs::path> recordings_in(const fs::path& folder, std::vector<std::string>& notes) {
     std::vector<fs::path> found;
+    std::vector<fs::path> others;
     std::error_code code;
     for (const auto& entry : fs::directory_iterator(folder, code)) {
-        if (is_recording(entry.path())) { found.push_back(entry.path()); }
+        if (is_recording(entry.path())) {
+            found.push_back(entry.path());
+        } else if (may_be_capture(entry.path())) {
+            others.push_back(entry.path());
+        }
     }
     std::ranges::sort(found);
+    std::ranges::sort(others);
+    for (const fs::path& other : others) {
+        if (std::ranges::any_of(found, may_be_capture)) {
+            notes.push_back(fmt::format("left out: {}", capture_fault(other)));
+        }
+    }
     return found;
 }
 
 ComparedKind kind_of(const fs::path& side) {
-    if (is_folder(side) || is_recording(side)) { return ComparedKind::Recordings; }
+    const bool is_table = is_file(side) && extension_of(side) == ".csv"; // a damaged one is refused when it is read
+    if (is_folder(side) || is_table || is_recording(side)) { return ComparedKind::Recordings; }
     char first = '\0';
     if (is_file(side)) { open_file(side) >> first; }
     if (first == '{') { return ComparedKind::Settings; }
@@ -71,8 +88,9 @@ std::string without_repeat(const std::string& name) {
 report::NamedValues drawing_settings(const report::LoadedRecording& recording) {
     report::NamedValues drawing;
     for (const auto& row : recording.run.settings) {
-        const std::string name = row.first.substr(0, row.first.find('.'));
-        if (settings::comparison_role(name) == report::SettingRole::Drawing) { drawing.push_back(row); }
+        if (report::role_of(row.first, &settings::comparison_role) == report::SettingRole::Drawing) {
+            drawing.push_back(row);
+        }
     }
     return drawing;
 }
@@ -90,14 +108,65 @@ ComparedKind compared_kind(const std::array<fs::path, 2>& sides) {
     return before;
 }
 
-std::vector<report::LoadedRecording> load_side(const fs::path& side) {
-    std::vector<fs::path> places = is_recording(side) ? std::vector{side} : recordings_in(side);
-    if (places.empty()) { places = recordings_in(side / "runs"); }
+std::vector<report::LoadedRecording> load_side(const fs::path& side, std::vector<std::string>& notes) {
+    std::vector<fs::path> places = is_file(side) || is_recording(side) ? std::vector{side} : recordings_in(side, notes);
+    if (places.empty()) { places = recordings_in(side / "runs", notes); }
     if (places.empty()) { throw_error_in(side, "expected a recording or a folder of recordings, found none in it"); }
-    std::vector<report::LoadedRecording> recordings;
-    for (const fs::path& place : places) { recordings.push_back(report::load_recording(place)); }
-    return recordings;
+    return report::load_recordings(places);
 }
+
+std::vector<std::string> notes_on(const report::LoadedRecording& recording) {
+    std::vector<std::string> notes;
+    const std::string name = printable(recording.display_name);
+    for (const auto& [fact, value] : recording.run.facts) {
+        if (!recording.capture_format.empty() && fact == "note") {
+            notes.push_back(fmt::format("{}: {}", name, value));
+        }
+    }
+    if (recording.ended_early || !recording.run.stopped.empty()) {
+        notes.push_back(fmt::format("{} ended early, after {} frames", name, recording.flight.frames()));
+    }
+    return notes;
+}
+
+namespace {
+
+/// The programs that recorded these runs, a short name each.
+std::set<std::string> programs_of(report::Recordings recordings, const Indices& runs) {
+    std::set<std::string> programs;
+    for (const std::size_t i : runs) {
+        const report::NamedValues& machine = recordings[i].run.machine;
+        programs.insert(fmt::format("{} ({}, file {})", report::value_of(machine, "program.version"),
+            report::value_of(machine, "program.commit"), report::value_of(machine, "program.hash").substr(0, 8)));
+    }
+    return programs;
+}
+
+/// Adds to names that several flights have the name of their first recording.
+void tell_apart(report::Recordings recordings, std::vector<MatchedFlight>& flights) {
+    std::map<std::string, int> counts;
+    for (const MatchedFlight& flight : flights) { ++counts[flight.name]; }
+    for (MatchedFlight& flight : flights) {
+        if (counts[flight.name] > 1) {
+            flight.name += fmt::format(" ({})", recordings[flight.before.runs.front()].display_name);
+        }
+    }
+}
+
+/// Adds notes of sides whose runs of a flight several programs recorded.
+void add_program_notes(report::Recordings recordings, MatchedFlights& matched) {
+    for (const MatchedFlight& flight : matched.flights) {
+        for (const report::Variant& side : {flight.before, flight.after}) {
+            const std::set<std::string> programs = programs_of(recordings, side.runs);
+            if (programs.size() > 1) {
+                matched.notes.push_back(fmt::format("{}: {} has flights of several programs, taken together: {}",
+                    flight.name, side.name, fmt::join(programs, ", ")));
+            }
+        }
+    }
+}
+
+} // namespace
 
 MatchedFlights matched_flights(
     report::Recordings recordings, std::size_t old_count, const std::array<std::string, 2>& names) {
@@ -134,12 +203,17 @@ MatchedFlights matched_flights(
     }
     if (matched.flights.empty() && left[0].size() == 1 && left[1].size() == 1) {
         match({left[0][0], left[1][0]});
-        return matched;
+        left = {};
     }
     std::ranges::sort(matched.flights, {}, [](const MatchedFlight& flight) { return flight.before.runs.front(); });
+    tell_apart(recordings, matched.flights);
     for (const auto& side : left) {
-        for (const Indices& runs : side) { matched.unmatched.push_back(recordings[runs.front()].display_name); }
+        for (const Indices& runs : side) {
+            matched.notes.push_back(
+                fmt::format("{}: the other side has no flight like it", recordings[runs.front()].display_name));
+        }
     }
+    add_program_notes(recordings, matched);
     return matched;
 }
 
@@ -147,8 +221,9 @@ std::vector<sweep::RoundFlight> compared_flight_settings(
     std::span<const std::string> files, std::vector<std::string>& notes) {
     std::vector<sweep::RoundFlight> flights;
     std::set<std::string> names;
-    const auto add = [&](std::string name, const settings::RunSettings& given) {
-        while (!names.insert(name).second) { name += "x"; }
+    const auto add = [&](const std::string& wanted, const settings::RunSettings& given) {
+        std::string name = wanted;
+        for (int i = 2; !names.insert(name).second; ++i) { name = fmt::format("{}-{}", wanted, i); }
         const settings::RunSettings flown = world::with_absolute_paths(given);
         flights.push_back({name, {flown, flown}});
     };

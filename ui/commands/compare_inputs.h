@@ -19,8 +19,13 @@ enum class ComparedKind { Programs, Settings, Recordings };
 ComparedKind compared_kind(const std::array<std::filesystem::path, 2>& sides);
 
 /// Recordings of a side: the folder or the file itself (packed, or recorded by another program: frame_capture.h), else
-/// those in a folder or in its runs/, in the order of their names. Throws Error where there is none.
-std::vector<report::LoadedRecording> load_side(const std::filesystem::path& side);
+/// those in a folder or in its runs/, in the order of their names. Adds a note for each table beside captures that is
+/// none. Throws Error where there is no recording.
+std::vector<report::LoadedRecording> load_side(const std::filesystem::path& side, std::vector<std::string>& notes);
+
+/// What a user must know of a recording: that it ended early, what was guessed or left out of a capture; a line each,
+/// with its name.
+std::vector<std::string> notes_on(const report::LoadedRecording& recording);
 
 /// One flight of both sides, with the indices of its recordings.
 struct MatchedFlight {
@@ -32,12 +37,12 @@ struct MatchedFlight {
 /// Flights that both sides have.
 struct MatchedFlights {
     std::vector<MatchedFlight> flights;
-    std::vector<std::string> unmatched; ///< names of the others
+    std::vector<std::string> notes; ///< what one side alone has, and sides that several programs recorded
 };
 
 /// Sets recordings of the new side against those of the old side, which come first: those of the same settings and
 /// input files; of a flight that is left on both sides in one variant, these; where each side is one flight in one
-/// variant, these whatever they are. `names`: of the sides.
+/// variant, these whatever they are. Flights have different names. `names`: of the sides.
 MatchedFlights matched_flights(
     report::Recordings recordings, std::size_t old_count, const std::array<std::string, 2>& names);
 

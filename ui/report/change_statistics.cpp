@@ -75,7 +75,9 @@ Change by_signed_ranks(std::span<const double> differences) {
     std::size_t outside = 0; // means on each side that the interval leaves out
     for (double below = shares[0]; 2.0 * below <= significance_level; below += shares[outside]) { ++outside; }
     assert(outside > 0);
-    return {median_of(means), means[outside - 1], means[means.size() - outside], signed_rank_p(differences)};
+    const double least_p = std::min(1.0, 2.0 * shares[0]);
+    return {median_of(means), means[outside - 1], means[means.size() - outside], signed_rank_p(differences), least_p,
+        mean_of(differences)->p};
 }
 
 double sum_of_squares(std::span<const double> values) {

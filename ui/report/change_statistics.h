@@ -22,9 +22,16 @@ struct Trial {
 /// How much a figure of the new side is above that of the old side.
 struct Change {
     double estimate = 0.0;
-    double low = 0.0;  ///< 95 % interval
-    double high = 0.0; ///< 95 % interval
-    double p = 1.0;    ///< probability of at least such a change, either way, where there is none
+    double low = 0.0;       ///< 95 % interval
+    double high = 0.0;      ///< 95 % interval
+    double p = 1.0;         ///< probability of at least such a change, either way, where there is none
+    double least_p = 0.0;   ///< that the test of p can give
+    double student_p = 1.0; ///< the probability by Student's t, where the test of p is another
+
+    /// P for so many comparisons: by Student's t where even the least p of its test is no change among them.
+    double p_among(std::size_t comparisons) const {
+        return least_p * static_cast<double>(comparisons) > significance_level ? student_p : p;
+    }
 
     bool excludes_zero() const { return low > 0.0 || high < 0.0; }
 };

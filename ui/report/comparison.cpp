@@ -24,9 +24,6 @@ std::string without_folder(const std::string& value) {
     return value.find('/') == std::string::npos ? value : std::filesystem::path(value).filename().string();
 }
 
-/// The role of a setting by its name in a recording: "terrain-lod.kind" has that of "terrain-lod".
-SettingRole role_of(std::string_view name, SettingRoles roles) { return roles(name.substr(0, name.find('.'))); }
-
 /// What of a recording makes another flight of it, by name.
 NamedValues scene_of(const LoadedRecording& recording, SettingRoles roles) {
     NamedValues scene;
@@ -58,15 +55,46 @@ NamedValues drawing_of(const LoadedRecording& recording, SettingRoles roles) {
     return drawing;
 }
 
-/// Names of what all these differ in, in their order.
+/// Names of what these differ in, in the order in which they have them.
 std::vector<std::string> differing_names(std::span<const NamedValues> all) {
     std::vector<std::string> names;
-    for (const auto& [name, value] : all.front()) {
-        if (std::ranges::any_of(all, [&](const NamedValues& each) { return value_of(each, name) != value; })) {
-            names.push_back(name);
+    std::set<std::string_view> known;
+    for (const NamedValues& one : all) {
+        for (const auto& [name, value] : one) {
+            if (known.insert(name).second &&
+                std::ranges::any_of(all, [&](const NamedValues& each) { return value_of(each, name) != value; })) {
+                names.push_back(name);
+            }
         }
     }
     return names;
+}
+
+/// A value as a flight's name has it: of a hash the first eight digits.
+std::string brief_value(const std::string& value) {
+    const bool is_hash = value.size() == 16 && value.find_first_not_of("0123456789abcdef") == std::string::npos;
+    return value.empty() ? "not set" : is_hash ? value.substr(0, 8) : value;
+}
+
+/// Adds to the names of flights that share one what of their scenes differs: ", zoom 2", ", x.toml 3f2a91c0"; a number
+/// where that is not enough.
+void tell_apart(std::vector<ComparedFlight>& flights, std::span<const NamedValues> scenes) {
+    std::map<std::string, std::vector<std::size_t>> by_name;
+    for (std::size_t i = 0; i < flights.size(); ++i) { by_name[flights[i].name].push_back(i); }
+    for (const auto& [name, group] : by_name) {
+        if (group.size() == 1) { continue; }
+        std::vector<NamedValues> own;
+        for (const std::size_t i : group) { own.push_back(scenes[i]); }
+        const std::vector<std::string> differing = differing_names(own);
+        std::map<std::string, int> counts;
+        for (const std::size_t i : group) {
+            for (const std::string& each : differing) {
+                flights[i].name += fmt::format(", {} {}", each, brief_value(value_of(scenes[i], each)));
+            }
+            const int count = ++counts[flights[i].name];
+            if (count > 1) { flights[i].name += fmt::format(" ({})", count); }
+        }
+    }
 }
 
 /// "order-method exact, samples 4; 1.0.0 (3f2a91c)".
@@ -91,7 +119,7 @@ std::string flight_title(const LoadedRecording& recording) {
     return recording.run.title.empty() ? recording.name : recording.run.title;
 }
 
-/// Indices of recordings by the time when they began; those of the same second as given.
+/// Indices of recordings by the time when they began; those of the same time as given.
 std::vector<std::size_t> in_time_order(Recordings recordings, std::vector<std::size_t> runs) {
     std::ranges::stable_sort(
         runs, {}, [&](std::size_t i) -> const std::string& { return recordings[i].run.machine_info.start_time_utc; });
@@ -108,7 +136,8 @@ TwoSides two_sides(Recordings recordings, const Variant& before, const Variant& 
     TwoSides both;
     both.runs = before.runs;
     both.runs.insert(both.runs.end(), after.runs.begin(), after.runs.end());
-    std::erase_if(both.runs, [&](std::size_t i) { return recordings[i].statistics.frames == 0; });
+    std::erase_if(both.runs,
+        [&](std::size_t i) { return recordings[i].statistics.frames + recordings[i].flight.paused_frames() == 0; });
     both.runs = in_time_order(recordings, std::move(both.runs));
     for (const std::size_t run : both.runs) {
         both.sides.push_back(std::ranges::count(before.runs, run) > 0 ? Side::Old : Side::New);
@@ -176,12 +205,15 @@ std::vector<std::string> flight_differences(
 
 std::vector<ComparedFlight> compared_flights(Recordings recordings, SettingRoles roles, std::string_view baseline) {
     std::vector<ComparedFlight> flights;
+    std::vector<NamedValues> scenes;
     std::vector<std::vector<NamedValues>> drawings; // of the flights' variants
     std::map<NamedValues, std::size_t> known_flights;
     std::map<std::pair<std::size_t, NamedValues>, std::size_t> known_variants;
     for (std::size_t i = 0; i < recordings.size(); ++i) {
-        const auto [flight, is_new_flight] = known_flights.emplace(scene_of(recordings[i], roles), flights.size());
+        NamedValues scene = scene_of(recordings[i], roles);
+        const auto [flight, is_new_flight] = known_flights.emplace(scene, flights.size());
         if (is_new_flight) {
+            scenes.push_back(std::move(scene));
             flights.push_back({flight_title(recordings[i]), {}});
             drawings.emplace_back();
         }
@@ -199,6 +231,7 @@ std::vector<ComparedFlight> compared_flights(Recordings recordings, SettingRoles
         const std::vector<std::string> names = differing_names(drawings[f]);
         for (std::size_t v = 0; v < variants.size(); ++v) { variants[v].name = variant_name(drawings[f][v], names); }
     }
+    tell_apart(flights, scenes);
     if (!baseline.empty()) { move_baseline_first(recordings, flights, baseline); }
     return flights;
 }
@@ -215,7 +248,9 @@ FrameTimes read_frame_times(const LoadedRecording& recording) {
     while (const auto row = rows.next()) {
         if (row->warm_up) { continue; }
         if (times.frame_ms.empty()) { times.first_frame = row->frame; }
+        if (row->frame != times.first_frame + std::ssize(times.frame_ms)) { break; } // rows are missing
         times.frame_ms.push_back(row->frame_ms);
+        times.paused.push_back(row->paused);
         const std::array<double, stage_names.size()> stages_ms = stages_of(*row);
         for (std::size_t s = 0; s < stages_ms.size(); ++s) { times.stage_ms[s].push_back(stages_ms[s]); }
     }
@@ -236,6 +271,8 @@ FlightChange flight_change(Recordings recordings, const Variant& before, const V
     for (std::size_t i = 0; i < both.runs.size(); ++i) {
         times[static_cast<std::size_t>(both.sides[i])].push_back(read_frame_times(recordings[both.runs[i]]));
     }
+    change.frames.old_runs = times[0].size();
+    change.frames.new_runs = times[1].size();
     if (times[0].empty() || times[1].empty()) { return change; }
     const bool are_own =
         std::ranges::all_of(both.runs, [&](std::size_t run) { return recordings[run].capture_format.empty(); });
@@ -251,6 +288,7 @@ std::vector<FlightChange> flight_changes(
     for (const ComparedFlight& flight : flights) {
         for (std::size_t v = 1; v < flight.variants.size(); ++v) {
             changes.push_back(flight_change(recordings, flight.variants.front(), flight.variants[v], roles));
+            changes.back().flight = flight.name;
         }
     }
     adjust_for_number(changes);
@@ -258,9 +296,11 @@ std::vector<FlightChange> flight_changes(
 }
 
 void adjust_for_number(std::span<FlightChange> changes) {
+    const auto count = static_cast<std::size_t>(
+        std::ranges::count_if(changes, [](const FlightChange& each) { return each.frames.change.has_value(); }));
     std::vector<double> p_values;
     for (const FlightChange& each : changes) {
-        if (each.frames.change) { p_values.push_back(each.frames.change->p); }
+        if (each.frames.change) { p_values.push_back(each.frames.change->p_among(count)); }
     }
     const std::vector<double> adjusted = holm_adjusted(p_values);
     std::size_t next = 0;
@@ -271,48 +311,12 @@ bool FlightChange::is_changed() const { return frames.change && adjusted_p <= si
 
 namespace {
 
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
+using OptionalNumber = std::optional<double>;
 
-constexpr Column<FlightChange> number_column(std::string_view key, std::string_view name, int decimals,
-    double (*value)(const FlightChange&), std::string_view definition, bool is_optional = false) {
-    Column<FlightChange> column;
-    column.key = key;
-    column.name = name;
-    column.decimals = decimals;
-    column.definition = definition;
-    column.is_optional = is_optional;
-    column.is_signed = true;
-    column.value = value;
-    return column;
+/// What an interval has; nothing where there is none.
+OptionalNumber percent_where_told(const FlightChange& row, double share) {
+    return row.frames.change ? OptionalNumber(100.0 * share) : std::nullopt;
 }
-
-constexpr Column<FlightChange> whole_column(std::string_view key, std::string_view name,
-    double (*value)(const FlightChange&), std::string_view definition, bool is_optional = false) {
-    Column<FlightChange> column = number_column(key, name, 0, value, definition, is_optional);
-    column.kind = ColumnKind::Whole;
-    column.is_signed = false;
-    return column;
-}
-
-constexpr Column<FlightChange> truth_column(
-    std::string_view key, std::string_view name, double (*value)(const FlightChange&), std::string_view definition) {
-    Column<FlightChange> column = whole_column(key, name, value, definition);
-    column.kind = ColumnKind::Truth;
-    return column;
-}
-
-constexpr Column<FlightChange> text_column(std::string_view key, std::string_view name,
-    std::string (*text)(const FlightChange&), std::string_view definition) {
-    Column<FlightChange> column;
-    column.key = key;
-    column.name = name;
-    column.kind = ColumnKind::Text;
-    column.definition = definition;
-    column.text = text;
-    return column;
-}
-
-double percent_or_none(const FlightChange& row, double share) { return row.frames.change ? 100.0 * share : none; }
 
 } // namespace
 
@@ -323,76 +327,56 @@ std::span<const Column<FlightChange>> change_columns() {
         column<&F::flight>("flight", "flight"),
         column<&F::old_variant>("old", "old"),
         column<&F::new_variant>("new", "new"),
-        text_column(
-            "pairing", "compared by",
-            [](const F& row) { return std::string(pairing_names[static_cast<std::size_t>(row.frames.pairing)]); },
+        column<[](const F& row) { return pairing_names[static_cast<std::size_t>(row.frames.pairing)]; }>("pairing",
+            "compared by", 0,
             "rounds: frame by frame within rounds flown alternately; frames: frame by frame of flights in another "
             "order; figures: only the flights' median frame times, as the frames are not the same"),
-        whole_column(
-            "old_runs", "old runs", [](const F& row) { return static_cast<double>(row.frames.old_runs); }, ""),
-        whole_column(
-            "new_runs", "new runs", [](const F& row) { return static_cast<double>(row.frames.new_runs); }, ""),
-        whole_column(
-            "frames", "frames", [](const F& row) { return static_cast<double>(row.frames.frames); },
-            "of each flight, without its warm-up"),
-        number_column(
-            "old_ms", "old, ms", 3, [](const F& row) { return row.frames.old_ms; },
-            "median over the runs of their mean frame time (figures: median frame time)"),
-        number_column(
-            "new_ms", "new, ms", 3, [](const F& row) { return row.frames.new_ms; }, "as old_ms"),
-        number_column(
-            "change_percent", "change, %", 2, [](const F& row) { return 100.0 * row.frames.share(); },
-            "of the frame time, frame by frame, each frame with the weight of its usual time"),
-        number_column(
-            "low_percent", "low, %", 2, [](const F& row) { return percent_or_none(row, row.frames.low_share()); },
-            "lower end of the 95 % interval", true),
-        number_column(
-            "high_percent", "high, %", 2, [](const F& row) { return percent_or_none(row, row.frames.high_share()); },
-            "upper end of the 95 % interval", true),
-        number_column(
-            "p", "p", 4, [](const F& row) { return row.frames.change ? row.frames.change->p : none; },
-            "probability of such a change where there is none, by the same test as the interval", true),
-        number_column(
-            "adjusted_p", "adjusted p", 4, [](const F& row) { return row.frames.change ? row.adjusted_p : none; },
-            "p with all comparisons of the table counted (Holm)", true),
-        number_column(
-            "mann_whitney_p", "U's p", 4, [](const F& row) { return row.frames.mann_whitney_p; },
-            "of Mann and Whitney's U of the runs' frame times"),
-        truth_column(
-            "changed", "changed", [](const F& row) { return row.is_changed() ? 1.0 : 0.0; },
-            "adjusted_p is at most 0.05"),
-        text_column(
-            "stage", "stage",
-            [](const F& row) {
-                return row.frames.stage_changed ? std::string(stage_names[row.frames.stage_changed->stage]) : "";
-            },
-            "of the frame that changed most; empty where none did for sure"),
-        number_column(
-            "stage_change_ms", "stage, ms", 3,
-            [](const F& row) { return row.frames.stage_changed ? row.frames.stage_changed->change_ms : none; },
-            "mean change of that stage in the changed frames, or in all", true),
-        whole_column(
-            "first_frame", "first frame",
-            [](const F& row) { return row.frames.frames_changed ? row.frames.frames_changed->first_frame : none; },
-            "of the changed frames; none where the change is all over the flight or nowhere for sure", true),
-        whole_column(
-            "last_frame", "last frame",
-            [](const F& row) { return row.frames.frames_changed ? row.frames.frames_changed->last_frame : none; },
-            "as first_frame", true),
-        number_column(
-            "frames_change_ms", "frames, ms", 3,
-            [](const F& row) { return row.frames.frames_changed ? row.frames.frames_changed->change_ms : none; },
-            "mean change of the changed frames", true),
-        truth_column(
-            "same_states", "same states", [](const F& row) { return row.same_states ? 1.0 : 0.0; },
-            "the state hashes of all runs are the same"),
-        truth_column(
-            "same_pictures", "same pictures", [](const F& row) { return row.same_pictures ? 1.0 : 0.0; },
-            "the picture hashes of all runs are the same"),
-        text_column(
-            "differences", "different flights",
-            [](const F& row) { return fmt::format("{}", fmt::join(row.flight_differences, ", ")); },
-            "what makes the two different flights; empty for one flight"),
+        column<[](const F& row) { return row.frames.old_runs; }>("old_runs", "old runs"),
+        column<[](const F& row) { return row.frames.new_runs; }>("new_runs", "new runs"),
+        column<[](const F& row) { return row.frames.frames; }>(
+            "frames", "frames", 0, "of each flight, without its warm-up: of the shortest where they differ"),
+        with_sign(column<[](const F& row) { return row.frames.old_ms; }>(
+            "old_ms", "old, ms", 3, "median over the runs of their mean frame time (figures: median frame time)")),
+        with_sign(column<[](const F& row) { return row.frames.new_ms; }>("new_ms", "new, ms", 3, "as old_ms")),
+        with_sign(column<[](const F& row) { return OptionalNumber(100.0 * row.frames.share()); }>("change_percent",
+            "change, %", 2,
+            "of the frame time, frame by frame, each frame with the weight of its usual time; none where a side has no "
+            "frames")),
+        with_sign(column<[](const F& row) { return percent_where_told(row, row.frames.low_share()); }>(
+            "low_percent", "low, %", 2, "lower end of the 95 % interval")),
+        with_sign(column<[](const F& row) { return percent_where_told(row, row.frames.high_share()); }>(
+            "high_percent", "high, %", 2, "upper end of the 95 % interval")),
+        with_sign(column<[](const F& row) {
+            return row.frames.change ? OptionalNumber(row.frames.change->p) : std::nullopt;
+        }>("p", "p", 4, "probability of such a change where there is none, by the same test as the interval")),
+        with_sign(column<[](const F& row) {
+            return row.frames.change ? OptionalNumber(row.adjusted_p) : std::nullopt;
+        }>("adjusted_p", "adjusted p", 4,
+            "p with all comparisons of the table counted (Holm); by Student's t where signed ranks of so few rounds "
+            "cannot reach 0.05 among so many")),
+        with_sign(column<[](const F& row) { return row.frames.mann_whitney_p; }>(
+            "mann_whitney_p", "U's p", 4, "of Mann and Whitney's U of the runs' frame times")),
+        column<&F::is_changed>("changed", "changed", 0, "adjusted_p is at most 0.05"),
+        column<[](const F& row) {
+            return row.frames.stage_changed ? stage_names[row.frames.stage_changed->stage] : std::string_view();
+        }>("stage", "stage", 0, "of the frame that changed most; empty where none did for sure"),
+        with_sign(column<[](const F& row) {
+            return row.frames.stage_changed ? OptionalNumber(row.frames.stage_changed->change_ms) : std::nullopt;
+        }>("stage_change_ms", "stage, ms", 3, "mean change of that stage in the changed frames, or in all")),
+        column<[](const F& row) {
+            return row.frames.frames_changed ? std::optional(row.frames.frames_changed->first_frame) : std::nullopt;
+        }>("first_frame", "first frame", 0,
+            "of the changed frames; none where the change is all over the flight or nowhere for sure"),
+        column<[](const F& row) {
+            return row.frames.frames_changed ? std::optional(row.frames.frames_changed->last_frame) : std::nullopt;
+        }>("last_frame", "last frame", 0, "as first_frame"),
+        with_sign(column<[](const F& row) {
+            return row.frames.frames_changed ? OptionalNumber(row.frames.frames_changed->change_ms) : std::nullopt;
+        }>("frames_change_ms", "frames, ms", 3, "mean change of the changed frames")),
+        column<&F::same_states>("same_states", "same states", 0, "the state hashes of all runs are the same"),
+        column<&F::same_pictures>("same_pictures", "same pictures", 0, "the picture hashes of all runs are the same"),
+        column<[](const F& row) { return fmt::format("{}", fmt::join(row.flight_differences, ", ")); }>(
+            "differences", "different flights", 0, "what makes the two different flights; empty for one flight"),
     };
     return columns;
 }
@@ -438,9 +422,13 @@ std::string place_text(const FrameChange& change) {
 std::string answer_of_one(const FlightChange& change, double limit, double resolution) {
     const std::string text = change_text(change.frames);
     if (!change.frames.change) { return text; }
-    if (change.is_changed()) { return text + place_text(change.frames); }
-    return verdict_of_one(change, limit, resolution) == Verdict::CannotTell ? "cannot tell: " + text
-                                                                            : "no change found: " + text;
+    const bool is_told = verdict_of_one(change, limit, resolution) != Verdict::CannotTell;
+    if (change.is_changed()) {
+        const std::string beyond =
+            is_told ? "" : fmt::format("; cannot tell whether more than {:.2g} % slower", 100.0 * limit);
+        return text + place_text(change.frames) + beyond;
+    }
+    return (is_told ? "no change found: " : "cannot tell: ") + text;
 }
 
 } // namespace
@@ -506,6 +494,7 @@ GateResult gate_result(Recordings recordings, std::span<const ComparedFlight> fl
     for (const ComparedFlight& flight : flights) {
         for (std::size_t v = 1; v < flight.variants.size(); ++v) {
             const TwoSides both = two_sides(recordings, flight.variants.front(), flight.variants[v]);
+            const auto old_runs = std::ranges::count(both.sides, Side::Old);
             for (const auto& [key, allowed] : gate) {
                 const Statistic& statistic = *statistic_of(key);
                 std::vector<Trial> trials;
@@ -517,8 +506,8 @@ GateResult gate_result(Recordings recordings, std::span<const ComparedFlight> fl
                 const auto change = change_of(trials);
                 if (!change) {
                     result.undecided.push_back(
-                        fmt::format("{}: expected three runs or more of each variant, got {} and {}", name,
-                            flight.variants.front().runs.size(), flight.variants[v].runs.size()));
+                        fmt::format("{}: expected three runs or more of each variant, got {} and {}", name, old_runs,
+                            std::ssize(both.sides) - old_runs));
                 } else if (std::expm1(change->low) > allowed) {
                     result.failures.push_back(fmt::format("{} {:+.1f} % ({:+.1f} to {:+.1f} %), above {:+.1f} %", name,
                         100.0 * std::expm1(change->estimate), 100.0 * std::expm1(change->low),

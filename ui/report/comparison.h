@@ -28,7 +28,7 @@ struct Variant {
 
 /// The recordings of one flight. The first variant is the baseline of the others.
 struct ComparedFlight {
-    std::string name; ///< the title of its first recording
+    std::string name; ///< title of its first recording; where flights share it, with that in which they differ
     std::vector<Variant> variants;
 };
 
@@ -36,7 +36,7 @@ struct ComparedFlight {
 /// or the name `baseline` comes first. Throws Error where no variant has that name.
 std::vector<ComparedFlight> compared_flights(Recordings recordings, SettingRoles roles, std::string_view baseline = {});
 
-/// The frame times of a recording. Throws Error as load_recording() does.
+/// The frame times of a recording up to the first gap in its rows. Throws Error as load_recording() does.
 FrameTimes read_frame_times(const LoadedRecording& recording);
 
 /// One comparison of two variants of a flight: a row of the comparison's table, CSV and JSON.

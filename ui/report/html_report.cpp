@@ -16,7 +16,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <map>
-#include <numeric>
 #include <set>
 #include <string_view>
 #include <utility>
@@ -78,21 +77,27 @@ std::vector<std::string> shown_values(Recordings recordings, std::string_view se
     return different(brief) == different(whole) ? brief : whole;
 }
 
-Indices all_of(Recordings recordings) {
-    Indices all(recordings.size());
-    std::iota(all.begin(), all.end(), std::size_t{0});
-    return all;
-}
-
-/// Names of settings in which some of these recordings differ, in their order. `among`: at least one.
-std::vector<std::string> differing_settings(Recordings recordings, const Indices& among) {
+/// Names of settings in which some of these recordings differ, in their order, without those that nothing depends on.
+std::vector<std::string> differing_settings(Recordings recordings, SettingRoles roles) {
     std::vector<std::string> names;
-    for (const auto& row : recordings[among.front()].run.settings) {
+    for (const auto& [name, value] : recordings.front().run.settings) {
+        const bool is_ignored = roles != nullptr && role_of(name, roles) == SettingRole::Ignored;
         const bool differs = std::ranges::any_of(
-            among, [&](std::size_t i) { return value_of(recordings[i].run.settings, row.first) != row.second; });
-        if (differs) { names.push_back(row.first); }
+            recordings, [&](const LoadedRecording& each) { return value_of(each.run.settings, name) != value; });
+        if (differs && !is_ignored) { names.push_back(name); }
     }
     return names;
+}
+
+/// What is said of frames in which programs were stopped; empty where there are none.
+std::string pauses_text(Recordings recordings) {
+    int frames = 0;
+    for (const LoadedRecording& recording : recordings) { frames += recording.flight.paused_frames(); }
+    return frames == 0
+               ? std::string()
+               : fmt::format(" Frames in which the program was stopped, as in the turns of octant compare, count "
+                             "in no figure and no curve: {} (column paused of frames.csv).",
+                     frames);
 }
 
 // The top of the page: what came of each flight.
@@ -192,10 +197,11 @@ std::string machine_sharing_text(Recordings recordings) {
 constexpr std::size_t max_html_rows = 100;
 
 /// Several flights, a row each: settings in which they differ, figures, hashes and faults.
-std::string runs_table(Recordings recordings, const std::vector<std::string>& labels, const fs::path& page_folder) {
+std::string runs_table(
+    Recordings recordings, const std::vector<std::string>& labels, const ReportPageOptions& options) {
     constexpr std::size_t max_settings = 6;
     constexpr int max_decimals = 2;
-    std::vector<std::string> names = differing_settings(recordings, all_of(recordings));
+    std::vector<std::string> names = differing_settings(recordings, options.roles);
     const std::size_t left_out = names.size() - std::min(names.size(), max_settings);
     names.resize(names.size() - left_out);
     std::vector<std::vector<std::string>> values;
@@ -204,7 +210,7 @@ std::string runs_table(Recordings recordings, const std::vector<std::string>& la
     for (std::size_t i = 0; i < recordings.size(); ++i) {
         const LoadedRecording& recording = recordings[i];
         std::vector<Cell> row = {{"flight", labels[i]}};
-        row.back().link = link_to(recording, page_folder);
+        row.back().link = link_to(recording, options.folder);
         for (std::size_t n = 0; n < names.size(); ++n) { row.emplace_back(names[n], values[n][i]); }
         for (const char* key : shown_statistics) {
             const Statistic& statistic = statistic_named(key);
@@ -222,7 +228,7 @@ std::string runs_table(Recordings recordings, const std::vector<std::string>& la
     }
     table.note = "The button in a column's head sorts by it. States and pictures are the first eight digits of their "
                  "hashes." +
-                 machine_sharing_text(recordings);
+                 machine_sharing_text(recordings) + pauses_text(recordings);
     if (left_out > 0) {
         table.note += fmt::format(" {} more settings differ; they are in the flights' own pages.", left_out);
     }
@@ -253,24 +259,7 @@ Outcome outcome_of(const FlightChange& change, double limit, double resolution) 
                                                                                        : Outcome::NoChange;
 }
 
-/// Adds to the names of flights the settings in which they differ where names repeat.
-void tell_apart(Recordings recordings, std::vector<ComparedFlight>& flights) {
-    std::set<std::string_view> names;
-    Indices firsts;
-    for (const ComparedFlight& flight : flights) {
-        names.insert(flight.name);
-        firsts.push_back(flight.variants.front().runs.front());
-    }
-    if (names.size() == flights.size()) { return; }
-    for (const std::string& setting : differing_settings(recordings, firsts)) {
-        const std::vector<std::string> values = shown_values(recordings, setting);
-        for (std::size_t i = 0; i < flights.size(); ++i) {
-            flights[i].name += fmt::format(", {} {}", setting, values[firsts[i]]);
-        }
-    }
-}
-
-Comparison comparison_of(Recordings recordings, const ReportPageOptions& options) {
+Comparison comparison_of(const ReportPageOptions& options) {
     Comparison comparison;
     for (const ComparedFlight& flight : options.flights) {
         if (flight.variants.size() == 1 && flight.variants.front().runs.size() == 1) { continue; }
@@ -281,7 +270,6 @@ Comparison comparison_of(Recordings recordings, const ReportPageOptions& options
         }
         comparison.flights.push_back(flight);
     }
-    tell_apart(recordings, comparison.flights);
     return comparison;
 }
 
@@ -436,7 +424,8 @@ std::string changes_table(Recordings recordings, const Comparison& comparison) {
         table.add(std::move(cells));
     }
     table.note = "Medians over the runs of a variant of their mean frame times, the change frame by frame with its "
-                 "95 % interval in brackets, and medians of P99.";
+                 "95 % interval in brackets, and medians of P99." +
+                 pauses_text(recordings);
     if (is_one_baseline) { table.note = fmt::format("The baseline is {}. ", baseline) + table.note; }
     return heading_html("Changes") + card_html(html_of(table, {"sortable", max_html_rows}));
 }
@@ -576,7 +565,8 @@ std::string statistics_table(const LoadedRecording& recording) {
     table.note = "frame_ms runs from the start of the frame's simulation step to its pixels complete and read; writing "
                  "pictures and video is outside it. n is the number of frames counted. Stress (frames.csv) is the "
                  "share of a frame's time, the simulated time from it to the next, that frame_ms is; where the ground "
-                 "adapts it is that share through a first-order filter.";
+                 "adapts it is that share through a first-order filter." +
+                 pauses_text(std::span(&recording, 1));
     return heading_html("Frame times") + card_html(html_of(table));
 }
 
@@ -684,7 +674,7 @@ std::string page_of_one(const LoadedRecording& recording, const ReportPageOption
 
 std::string page_of_several(Recordings recordings, const ReportPageOptions& options) {
     const std::vector<std::string> labels = labels_of(recordings);
-    const Comparison comparison = comparison_of(recordings, options);
+    const Comparison comparison = comparison_of(options);
     const std::vector<PlotSeries> curves = frame_time_curves(recordings, labels);
     std::string html = page_head(fmt::format("{} flights compared", recordings.size()), "Octant flight report", true);
     html += card_html(answer_html(comparison, options) +
@@ -694,7 +684,7 @@ std::string page_of_several(Recordings recordings, const ReportPageOptions& opti
     }
     if (!comparison.rows.empty()) { html += changes_table(recordings, comparison); }
     return html + page_curves(curves) + overlaid_plots(recordings, comparison, curves) +
-           runs_table(recordings, labels, options.folder) + plots_of_several(recordings, curves) +
+           runs_table(recordings, labels, options) + plots_of_several(recordings, curves) +
            pictures(recordings, labels) +
            values_table("Settings that all have in common", common_rows(recordings, &RunFile::settings)) +
            values_table("Program and machine that all have in common", common_rows(recordings, &RunFile::machine)) +

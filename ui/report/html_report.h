@@ -2,6 +2,7 @@
 
 #include "ui/report/comparison.h"
 #include "ui/report/loaded_recording.h"
+#include "ui/report/setting_role.h"
 #include "ui/report/table.h"
 
 #include <filesystem>
@@ -17,6 +18,8 @@ struct ReportPageOptions {
     std::span<const FlightChange> changes = {};     ///< flight_changes() of these flights
     double limit = 0.0;                             ///< as of answer_text()
     double resolution = 0.02;                       ///< as of answer_text()
+    SettingRoles roles =
+        nullptr; ///< settings that nothing depends on are no columns of the table of flights; null: all
 };
 
 /// A self-contained page on one recording or on several. The page on one has its figures with their definitions, plots

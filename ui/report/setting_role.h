@@ -14,4 +14,9 @@ enum class SettingRole {
 /// Gives the role of each setting. ui/settings has the table.
 using SettingRoles = SettingRole (*)(std::string_view setting);
 
+/// The role of an entry of a recording's settings: "terrain-lod.kind" has that of "terrain-lod".
+inline SettingRole role_of(std::string_view entry, SettingRoles roles) {
+    return roles(entry.substr(0, entry.find('.')));
+}
+
 } // namespace octant::ui::report

@@ -58,7 +58,7 @@ void write_recordings(const fs::path& recording, const fs::path& folder, int cou
         }
         write_file(copy / "frames.csv", rows);
         std::string own_run = run;
-        own_run.replace(own_run.find(time) + time.size(), 20, fmt::format("2026-01-01T00:{:02}:00Z", i));
+        own_run.replace(own_run.find(time) + time.size(), 24, fmt::format("2026-01-01T00:{:02}:00.000Z", i));
         write_file(copy / "run.json", own_run);
     }
 }
@@ -185,6 +185,108 @@ TEST_CASE("recordings are compared as they are, with exit codes 0, 1 and 3") {
     CHECK(fs::exists(out / "compare.html"));
 }
 
+TEST_CASE("frames in which a program was stopped for the other one's turn are marked, and no figure has them") {
+    const fs::path made = tests::empty_folder("compare");
+    const std::string before = small_flight(made, "before", R"(, "size": "320x240")", 200).string();
+    const fs::path out = made / "out";
+    const tests::ProgramRun run =
+        run_octant({"compare", before, before, "--rounds", "3", "--limit", "1000%", "--out", out.string(), "--quiet"});
+    INFO(run.out << run.err);
+    REQUIRE(run.exit_code == 0);
+    for (const char* name : {"old-r1", "new-r1", "old-r3", "new-r3"}) {
+        const ui::report::LoadedRecording flown = ui::report::load_recording(out / "flight" / name);
+        INFO(name);
+        CHECK(flown.flight.paused_frames() > 0);
+        CHECK(flown.flight.paused_frames() + flown.statistics.frames == 198);
+        CHECK(flown.disagreement.empty());
+        CHECK_THAT(ui::report::value_of(flown.run.facts, "note"), Contains("turns of octant compare"));
+    }
+    CHECK_THAT(read_file(out / "compare.html"), Contains("the program was stopped"));
+    CHECK_THAT(read_file(out / "compare.html"), !Contains("does not record when it is stopped"));
+    const auto start_of = [&](const char* name) {
+        return ui::report::read_run_file(out / "flight" / name / "run.json").machine_info.start_time_utc;
+    };
+    CHECK(start_of("old-r1") != start_of("new-r1"));
+}
+
+TEST_CASE("what is compared is never removed, and what is left out of it is told") {
+    const fs::path made = tests::empty_folder("compare");
+    const fs::path out = made / "out";
+    const std::string file = small_flight(made, "small").string();
+    REQUIRE(run_octant({"compare", file, file, "--rounds", "1", "--out", out.string(), "--quiet"}).exit_code == 3);
+    const std::string old = (out / "flight/old-r1").string();
+    tests::check_refused("compare", {old, old, "--out", out.string()},
+        "expected a folder without what is compared, got one with " + old);
+    tests::check_refused("compare", {(out / "flight/old.json").string(), file, "--out", out.string()},
+        "expected a folder without what is compared");
+    CHECK(fs::exists(out / "flight/old-r1/frames.csv"));
+    // A damaged capture is refused by its line; one in a folder of captures is named.
+    const std::string log = old + "/mangohud.csv";
+    const fs::path captures = made / "captures";
+    fs::create_directories(captures);
+    fs::copy_file(log, captures / "one.csv");
+    const std::string damaged = (captures / "two.csv").string();
+    write_file(damaged, read_file(log) + "125.0,fast,0\n");
+    tests::check_refused("compare", {log, damaged}, "two.csv:");
+    const tests::ProgramRun run = run_octant({"compare", log, captures.string()});
+    INFO(run.out << run.err);
+    CHECK(run.exit_code == 3);
+    CHECK_THAT(run.err, Contains("note: left out: ") && Contains("two.csv:"));
+}
+
+TEST_CASE("a report tells changes in JSON, and its gate ends as octant compare does") {
+    const fs::path made = tests::empty_folder("report-gate");
+    const fs::path flown = made / "flown";
+    REQUIRE(
+        run_octant({"fly", "--settings", small_flight(made, "small").string(), "--record", flown.string(), "--quiet"})
+            .exit_code == 0);
+    RandomGenerator dice(3);
+    const auto write_variant = [&](const std::string& name, double share) {
+        write_recordings(flown, made / name, 4,
+            [&](int, int k) { return (5.0 + k % 5) * share * (1.0 + 0.002 * dice.between(-1.0, 1.0)); });
+        for (int i = 1; i <= 4; ++i) { // another build
+            const fs::path run = made / name / fmt::format("flown-r{}", i) / "run.json";
+            std::string text = read_file(run);
+            const std::string key = "\"commit\": \"";
+            text.insert(text.find(key) + key.size(), name);
+            const std::string summary = "\"summary\""; // of the flight that was copied
+            text.replace(text.find(summary), summary.size(), "\"old summary\"");
+            write_file(run, text);
+        }
+    };
+    write_variant("before", 1.0);
+    write_variant("after", 1.2);
+    std::vector<std::string> line = {"report"};
+    for (const char* side : {"before", "after"}) {
+        for (int i = 1; i <= 4; ++i) { line.push_back((made / side / fmt::format("flown-r{}", i)).string()); }
+    }
+    line.insert(line.end(), {"--out", (made / "page.html").string(), "--quiet"});
+    const auto with = [&](const std::vector<std::string>& more) {
+        std::vector<std::string> all = line;
+        all.insert(all.end(), more.begin(), more.end());
+        return run_octant(all);
+    };
+    const tests::ProgramRun json = with({"--json", "--gate", "p50=5%"});
+    INFO(json.out << json.err);
+    CHECK(json.exit_code == 1);
+    const fs::path schema = fs::path(OCTANT_SOURCE_DIR) / "ui/schemas/report.json";
+    CHECK(tests::schema_faults(json.out, schema) == std::vector<std::string>());
+    const PrintedJson printed(json.out);
+    CHECK(printed["changes"][0]["changed"] == true);
+    CHECK(printed["changes"][0]["change_percent"] >= 19.0);
+    CHECK(printed["changes"][0]["old_runs"] == 4);
+    CHECK(with({"--gate", "p50=25%"}).exit_code == 0);
+    line.erase(line.begin() + 3, line.begin() + 5); // two are left before
+    const tests::ProgramRun few = with({"--gate", "p50=25%"});
+    CHECK(few.exit_code == 3);
+    CHECK_THAT(few.out, Catch::StartsWith("cannot tell: ") &&
+                            Contains("p50_ms: expected three runs or more of each variant, got 2 and 4"));
+    line.erase(line.begin() + 3, line.begin() + 7);
+    const tests::ProgramRun one = with({"--gate", "p50=25%"});
+    CHECK(one.exit_code == 3);
+    CHECK_THAT(one.out, Catch::StartsWith("cannot tell: all recordings are repeats of one variant"));
+}
+
 TEST_CASE("sides of a comparison that do not go together are refused") {
     const fs::path made = tests::empty_folder("compare");
     const std::string program = OCTANT_PROGRAM;
@@ -236,7 +338,7 @@ TEST_CASE("the flights of a sweep's file are those of a comparison, each once") 
     REQUIRE(flights.size() == 3);
     CHECK(flights[0].name == "40");
     CHECK(flights[1].name == "50");
-    CHECK(flights[2].name == "40x");
+    CHECK(flights[2].name == "40-2");
     CHECK(notes.empty());
     const auto standard = ui::commands::compared_flight_settings({}, notes);
     REQUIRE(standard.size() == 1);

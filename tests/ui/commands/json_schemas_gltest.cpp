@@ -35,7 +35,7 @@ void check(const std::string& name, std::vector<std::string> line) {
     line.emplace_back("--json");
     const tests::ProgramRun run = run_octant(line);
     INFO(line[0] << " " << line[1] << ": " << run.err);
-    CHECK(run.exit_code <= 1);
+    CHECK((run.exit_code <= 1 || run.exit_code == 3)); // a failed check; cannot tell
     CHECK(tests::schema_faults(run.out, schema(name)) == std::vector<std::string>());
 }
 

@@ -141,6 +141,18 @@ TEST_CASE("p values are adjusted for their number as Holm does") {
     CHECK(holm_adjusted({}).empty());
 }
 
+TEST_CASE("among many comparisons p is Student's where ranks of so few rounds are never certain") {
+    const std::vector<double> differences{0.10, 0.11, 0.09, 0.10, 0.12, 0.08, 0.10};
+    const Change change = *centre_of(differences);
+    CHECK(change.p == Approx(2.0 / 128.0));
+    CHECK(change.p_among(1) == change.p);
+    CHECK(change.p_among(3) == change.p); // 3 * 2 / 128 is below 5 %
+    CHECK(change.p_among(4) == mean_of(differences)->p);
+    CHECK(change.p_among(4) < 1e-5);
+    const Change few = *centre_of(std::span(differences).first(4));
+    CHECK(few.p_among(100) == few.p); // is Student's already
+}
+
 TEST_CASE("flights are in rounds where both sides alternate and not always in the same order") {
     const std::vector<double> values(8, 1.0);
     CHECK(is_in_rounds(trials_of("onnoonno", values)));

@@ -6,6 +6,7 @@
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 
@@ -98,8 +99,38 @@ TEST_CASE("files of one name are one flight only with the same contents; their f
     runs[2].run.inputs = {{"/b/x.toml", "22"}};
     CHECK(flight_differences(runs[0], runs[1], role_of_setting).empty());
     CHECK(flight_differences(runs[0], runs[2], role_of_setting) == std::vector<std::string>{"x.toml"});
+    for (LoadedRecording& run : runs) { run.run.title = "x"; }
+    const auto flights = compared_flights(runs, role_of_setting);
+    REQUIRE(flights.size() == 2);
+    CHECK(flights[0].name == "x, x.toml 11");
+    CHECK(flights[1].name == "x, x.toml 22");
     runs[1].run.machine_info.cores = 8;
     CHECK(flight_differences(runs[0], runs[1], role_of_setting) == std::vector<std::string>{"processor"});
+}
+
+TEST_CASE("flights with one title are told apart by what differs, by hashes in eight digits, and by a number at last") {
+    std::vector runs{run_of("turn", "exact", 1.0), run_of("turn", "exact", 1.0), run_of("turn", "exact", 1.0),
+        run_of("pop-up", "exact", 1.0)};
+    for (LoadedRecording& run : runs) { run.run.title = "f15"; }
+    runs[3].run.title = "other";
+    runs[0].run.inputs = {{"a/x.obj", "0123456789abcdef"}, {"b/x.obj", "1111111111111111"}};
+    runs[1].run.inputs = {{"a/x.obj", "0123456789abcdef"}, {"b/x.obj", "2222222222222222"}};
+    runs[2].run.settings[1].second = "2";
+    const auto flights = compared_flights(runs, role_of_setting);
+    REQUIRE(flights.size() == 4);
+    CHECK(flights[0].name == "f15, x.obj 01234567, zoom 1");
+    CHECK(flights[1].name == "f15, x.obj 01234567, zoom 1 (2)");
+    CHECK(flights[2].name == "f15, x.obj not set, zoom 2");
+    CHECK(flights[3].name == "other");
+}
+
+TEST_CASE("eight rounds of many flights show a change, which ranks alone could not") {
+    std::vector<FlightChange> changes(24);
+    for (FlightChange& change : changes) { change.frames.change = centre_of(std::vector(8, 0.0)); }
+    changes[7].frames.change = centre_of(std::vector{0.10, 0.11, 0.09, 0.10, 0.12, 0.08, 0.10, 0.11});
+    adjust_for_number(changes);
+    CHECK(changes[7].is_changed());
+    CHECK(std::ranges::count_if(changes, &FlightChange::is_changed) == 1);
 }
 
 TEST_CASE("the baseline is the first variant given, or the one that is asked for") {
@@ -163,6 +194,8 @@ TEST_CASE("a slower stage of recordings is told in one line, in a verdict and in
     CHECK(verdict_of(changes, 0.0, 0.02) == Verdict::Slower);
     CHECK(verdict_of(changes, 0.2, 0.02) == Verdict::NotSlower);
     CHECK(verdict_of(changes, change.frames.share(), 1e-5) == Verdict::CannotTell);
+    CHECK_THAT(answer_text(changes, change.frames.share(), 1e-5),
+        Catch::Contains("draw stage +0.51 ms; cannot tell whether more than 10 % slower"));
     const std::string line = csv_line(change_columns(), change);
     CHECK_THAT(line, Catch::Contains(",rounds,6,6,110,") && Catch::Contains(",1,draw,0.50"));
 }
@@ -175,5 +208,10 @@ TEST_CASE("flights of two recordings of each side have no interval, and that is 
     CHECK_THAT(
         answer_text(changes, 0.0, 0.02), Catch::StartsWith("cannot tell (+19.9 % by the medians)") &&
                                              Catch::EndsWith(": expected three flights or more of each, got 1 and 1"));
+    std::vector empty = runs;
+    empty[1].statistics.frames = 0;
+    const auto none = flight_changes(empty, compared_flights(empty, role_of_setting), role_of_setting);
+    CHECK_FALSE(std::isfinite(none[0].frames.share()));
+    CHECK_THAT(csv_line(change_columns(), none[0]), Catch::Contains(",rounds,1,0,0,0.000,0.000,,,"));
     CHECK(answer_text({}, 0.0, 0.02) == "nothing is compared: no flight has two variants");
 }

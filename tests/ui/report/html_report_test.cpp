@@ -40,6 +40,7 @@ std::size_t count_of(const std::string& text, const std::string& what) {
 }
 
 SettingRole role_on_page(std::string_view name) {
+    if (name == "pictures") { return SettingRole::Ignored; }
     return name == "rate" || name == "path" ? SettingRole::Scene : SettingRole::Drawing;
 }
 
@@ -47,7 +48,7 @@ SettingRole role_on_page(std::string_view name) {
 std::string compared_page(Recordings recordings) {
     const auto flights = compared_flights(recordings, &role_on_page);
     const auto changes = flight_changes(recordings, flights, &role_on_page);
-    return html_report(recordings, {.flights = flights, .changes = changes});
+    return html_report(recordings, {.flights = flights, .changes = changes, .roles = &role_on_page});
 }
 
 /// A change of so many percent, certain where `p` is small.
@@ -162,6 +163,25 @@ TEST_CASE("several flights stand in a table, and those of the same flight are co
     CHECK_THAT(html_report(recordings), Contains((scratch / "two").string()));
     write_file(scratch / "two/report.html", "its own");
     CHECK_THAT(html_report(recordings, {.folder = scratch.path()}), Contains("<a href=\"two/report.html\">"));
+}
+
+TEST_CASE("a setting that nothing depends on is no difference, and pauses are told below the tables") {
+    const ScratchFolder scratch;
+    std::vector recordings{
+        made_up_recording(scratch / "one", "first", 5.0), made_up_recording(scratch / "two", "second", 7.0)};
+    recordings[0].run.settings.emplace_back("pictures", "5");
+    recordings[1].run.settings.emplace_back("pictures", "0");
+    recordings[1].run.settings[0].second = "other";
+    const std::string page = compared_page(recordings);
+    CHECK_THAT(page, Contains("<th>note</th>") && !Contains("<th>pictures</th><th>Frames"));
+    CHECK(page.find(">pictures</th>") == page.rfind(">pictures</th>")); // that of the hashes
+    CHECK_THAT(page, !Contains("was stopped"));
+    FrameRecord paused = made_up_frame(20, 90.0);
+    paused.paused = true;
+    recordings[0].flight.add(paused);
+    CHECK(count_of(compared_page(recordings), "count in no figure and no curve: 1 (column paused") == 2);
+    CHECK(count_of(html_report(std::span(recordings).first(1)), "count in no figure and no curve: 1 (column paused") ==
+          1);
 }
 
 TEST_CASE("a certain change is marked, and a long study stays small") {
