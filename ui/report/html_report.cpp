@@ -517,7 +517,9 @@ std::string plots_of_one(const LoadedRecording& recording) {
     PlotWidth width = PlotWidth::FullWidth;
     for (Plot& plot : flight_plots(recording.flight, ceiling_ms)) {
         if (plot.x_label.starts_with("simulated time")) { plot.marks = recording.run.legs; }
-        html += card_html(page_plot(plot, std::exchange(width, PlotWidth::HalfWidth), picture_of_plot));
+        // A picture of the frame times alone: those of all would make the page of a long flight half as large again.
+        const PlotPicture picture_of = width == PlotWidth::FullWidth ? picture_of_plot : nullptr;
+        html += card_html(page_plot(plot, std::exchange(width, PlotWidth::HalfWidth), picture_of));
     }
     std::string text = "Values under the pointer; drag to zoom, double click for all of it.";
     if (recording.statistics.max_ms > ceiling_ms) {

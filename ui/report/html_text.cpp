@@ -230,7 +230,7 @@ figcaption { font-size: .8rem; padding-top: .2rem; overflow-wrap: anywhere; }
   .plots .card { margin-bottom: 4mm; }
   .plot svg { width: 100%; height: auto; }
   .small-plots { grid-template-columns: repeat(4, minmax(0, 1fr)); gap: 3mm; }
-  .sheet:not(.pairs) { grid-template-columns: repeat(4, minmax(0, 1fr)); }
+  .sheet, .sheet.pairs { grid-template-columns: repeat(4, minmax(0, 1fr)); }
   .filter, .tall tbody tr:nth-child(n+501), .tall .plot:nth-of-type(n+61) { display: none; }
   .print-only { display: block; }
 }
