@@ -58,7 +58,7 @@ END
 "$octant" sweep paper.toml --out paper --paper --quiet >/dev/null || true
 mkdir baseline
 report matrix/runs/*turn* --baseline "$(cd matrix/runs && printf '%s\n' *turn* | tail -n 1)" --out baseline/report.html
-# A stopped sweep, a flight that was killed, and flights too short for percentiles.
+# A stopped sweep, and flights too short for percentiles.
 sed -e '1s/matrix/stopped/' -e 's/frames = 60/frames = 200/' matrix.toml >stopped.toml
 timeout --signal INT 20 "$octant" sweep stopped.toml --out stopped --quiet >/dev/null || true
 sed -e '1s/paper/short/' -e 's/frames = 130/frames = 28/' paper.toml >short.toml

@@ -634,6 +634,11 @@ def check_not_done(page, folder):
             rows = page.rows_of(title.parent.all("table")[0])
             for row in rows[:-1]:
                 row[0].told = True
+                found = re.fullmatch(r"ended by SIG\w+(?: after (\d+) of (\d+) frames)?", row[1].text())
+                row[1].told = found is not None
+                if found and found[1]:
+                    r = Recording(folder / "runs" / row[0].text())
+                    page.is_same("frames of a stopped flight", [found[1], found[2]], [str(r.frames), dict(r.settings)["frames"]])
             page.is_same("stopped and failed", len(rows) - 1, len([s for s in states if s in ("failed", "stopped")]))
             page.expect(rows[-1][0], Number(states.count("not begun")), " flights")
 
