@@ -279,7 +279,8 @@ Comparison comparison_of(const ReportPageOptions& options) {
 Cell change_cell(std::string column, const ComparisonRow& row, bool with_interval) {
     constexpr std::array classes{"slower", "faster", "no-change", "unknown"};
     const FrameChange& frames = row.change->frames;
-    std::string text = frames.frames > 0 ? fmt::format("{:+.1f} %", 100.0 * frames.share()) : "no frames";
+    const bool has_frames = frames.old_runs > 0 && frames.new_runs > 0;
+    std::string text = has_frames ? fmt::format("{:+.1f} %", 100.0 * frames.share()) : "no frames";
     if (with_interval && frames.change) {
         text += fmt::format(" ({:+.1f} to {:+.1f} %)", 100.0 * frames.low_share(), 100.0 * frames.high_share());
     }
@@ -378,7 +379,7 @@ std::string matrix_html(const Comparison& comparison, double excluded_slowdown) 
                       100.0 * excluded_slowdown));
 }
 
-/// "frames 210-260; plan stage +0.80 ms; other pictures".
+/// "frames 210-260; plan stage +0.80 ms; other pictures", "by medians; other states; other pictures".
 std::string remarks_on(const FlightChange& change) {
     std::vector<std::string> parts;
     if (const auto& frames = change.frames.frames_changed) {
@@ -387,9 +388,26 @@ std::string remarks_on(const FlightChange& change) {
     if (const auto& stage = change.frames.stage_changed) {
         parts.push_back(fmt::format("{} stage {:+.2g} ms", stage_names[stage->stage], stage->change_ms));
     }
+    if (change.frames.pairing == Pairing::Figures) { parts.emplace_back("by medians"); }
     if (!change.same_states) { parts.emplace_back("other states"); }
     if (!change.same_pictures) { parts.emplace_back("other pictures"); }
     return fmt::format("{}", fmt::join(parts, "; "));
+}
+
+/// How the changes were found, in each of the ways that the rows have.
+std::string pairing_text(const Comparison& comparison) {
+    constexpr std::array texts{" Frames that something else held up, whose new / old time is more than 4 standard "
+                               "deviations off, are left out.",
+        " Flights that did not alternate have a wider interval, with room for drift of the machine.",
+        " By medians: the frames are not the same, so the medians of the flights' frame times are compared, and the "
+        "two times in ms are theirs."};
+    std::string text;
+    for (std::size_t i = 0; i < texts.size(); ++i) {
+        const bool is_used = std::ranges::any_of(comparison.rows,
+            [&](const ComparisonRow& row) { return row.change->frames.pairing == static_cast<Pairing>(i); });
+        text += is_used ? texts[i] : "";
+    }
+    return text;
 }
 
 /// The median of a variant's P99; "none" where no run has frames.
@@ -413,12 +431,12 @@ std::string changes_table(Recordings recordings, const Comparison& comparison) {
         std::vector<Cell> cells;
         if (comparison.flights.size() > 1) { cells.emplace_back("flight", flight.name); }
         cells.emplace_back("variant", row.change->new_variant);
+        cells.push_back(change_cell("change", row, true));
+        cells.emplace_back("where", remarks_on(*row.change));
         if (!is_one_baseline) { cells.emplace_back("baseline", row.change->old_variant); }
         cells.push_back({"runs", "{}+{}", frames.old_runs, frames.new_runs});
         cells.push_back({"baseline, ms", "{:.3f}", frames.old_ms});
         cells.push_back({"ms", "{:.3f}", frames.new_ms});
-        cells.push_back(change_cell("change", row, true));
-        cells.emplace_back("where", remarks_on(*row.change));
         cells.emplace_back("P99 of baseline, ms", p99_text(recordings, flight.variants.front()));
         cells.emplace_back("P99, ms", p99_text(recordings, flight.variants[row.variant]));
         table.add(std::move(cells));
@@ -427,6 +445,7 @@ std::string changes_table(Recordings recordings, const Comparison& comparison) {
                  "95 % interval in brackets, and medians of P99." +
                  pauses_text(recordings);
     if (is_one_baseline) { table.note = fmt::format("The baseline is {}. ", baseline) + table.note; }
+    table.note += pairing_text(comparison);
     return heading_html("Changes") + card_html(html_of(table, {"sortable", max_html_rows}));
 }
 
@@ -436,6 +455,7 @@ std::string changes_table(Recordings recordings, const Comparison& comparison) {
 Plot overlaid_plot(Recordings recordings, const ComparedFlight& flight) {
     constexpr std::size_t max_curves = 12;
     Plot plot{flight.name, "simulated time, s", "ms", {}, {}, 0.0, 0.0};
+    const bool is_one = flight.variants.size() == 1; // then a colour for each run
     const std::size_t max_of_each = std::max<std::size_t>(1, max_curves / flight.variants.size());
     std::size_t runs = 0;
     double ceiling_ms = 0.0;
@@ -447,7 +467,10 @@ Plot overlaid_plot(Recordings recordings, const ComparedFlight& flight) {
         }
         const std::size_t max_here = std::min(max_of_each, max_curves - plot.series.size());
         for (const std::size_t i : std::span(variant).first(std::min(variant.size(), max_here))) {
-            plot.series.push_back({.name = "", .colour = run_colours[v % run_colours.size()], .shared_curve = i});
+            const std::size_t colour = is_one ? plot.series.size() : v;
+            plot.series.push_back({.name = is_one ? "" : flight.variants[v].name,
+                .colour = run_colours[colour % run_colours.size()],
+                .shared_curve = i});
         }
     }
     if (plot.series.size() < runs) { plot.title += fmt::format(" ({} of {} runs)", plot.series.size(), runs); }
@@ -483,7 +506,9 @@ std::string plots_of_one(const LoadedRecording& recording) {
     PlotWidth width = PlotWidth::FullWidth;
     for (Plot& plot : flight_plots(recording.flight, ceiling_ms)) {
         if (plot.x_label.starts_with("simulated time")) { plot.marks = recording.run.legs; }
-        html += card_html(page_plot(plot, std::exchange(width, PlotWidth::HalfWidth)));
+        // A picture of the frame times alone: those of all would make the page of a long flight half as large again.
+        const PlotPicture picture_of = width == PlotWidth::FullWidth ? picture_of_plot : nullptr;
+        html += card_html(page_plot(plot, std::exchange(width, PlotWidth::HalfWidth), picture_of));
     }
     std::string text = "Values under the pointer; drag to zoom, double click for all of it.";
     if (recording.statistics.max_ms > ceiling_ms) {
@@ -548,6 +573,21 @@ std::string pictures(Recordings recordings, const std::vector<std::string>& labe
             fmt::format("{} of {} {}, evenly spaced.", max_shown, all.size(), is_one ? "pictures" : "flights"));
     }
     return heading_html(is_one ? "Pictures" : "A picture from the middle of each flight") + card_html(html);
+}
+
+/// The pictures to which a table links, those of a row beside each other.
+std::string linked_pictures(const ResultTable& table, const fs::path& folder) {
+    constexpr int widest_px = 640;
+    constexpr std::size_t max_shown = 12;
+    std::string html;
+    std::size_t shown = 0;
+    for (const std::vector<Cell>& row : table.rows) {
+        for (const Cell& cell : row) {
+            if (!cell.link.ends_with(".png") || shown++ >= max_shown) { continue; }
+            html += picture_html(folder / cell.link, widest_px, fmt::format("{}, {}", row.front().text, cell.column));
+        }
+    }
+    return html.empty() ? html : "<div class=\"sheet pairs\">\n" + html + "</div>\n";
 }
 
 // Figures, slow frames and results of one flight.
@@ -676,11 +716,13 @@ std::string page_of_several(Recordings recordings, const ReportPageOptions& opti
     const std::vector<std::string> labels = labels_of(recordings);
     const Comparison comparison = comparison_of(options);
     const std::vector<PlotSeries> curves = frame_time_curves(recordings, labels);
-    std::string html = page_head(fmt::format("{} flights compared", recordings.size()), "Octant flight report", true);
+    const char* const compared = comparison.rows.empty() ? "" : " compared";
+    std::string html =
+        page_head(fmt::format("{} flights{}", recordings.size(), compared), "Octant flight report", true);
     html += card_html(answer_html(comparison, options) +
                       (comparison.rows.empty() ? "" : matrix_html(comparison, options.limit + options.resolution)));
     for (const ResultTable& table : options.first_tables) {
-        html += card_html(html_of(table, {"sortable", max_html_rows}));
+        html += card_html(html_of(table, {"sortable", max_html_rows}) + linked_pictures(table, options.folder));
     }
     if (!comparison.rows.empty()) { html += changes_table(recordings, comparison); }
     return html + page_curves(curves) + overlaid_plots(recordings, comparison, curves) +

@@ -142,7 +142,11 @@ header { margin-bottom: 1rem; }
   position: absolute; z-index: 2; white-space: pre; pointer-events: none; padding: .35rem .6rem; border-radius: 6px;
   font-size: .8rem; background: var(--ink); color: var(--card);
 }
-.scroll { overflow-x: auto; }
+.scroll { /* a shadow at its right edge while there is more to scroll to */
+  overflow-x: auto;
+  background: linear-gradient(to left, var(--card) 40%, transparent) right / 2rem 100% no-repeat local,
+    linear-gradient(to left, var(--soft), transparent) right / .6rem 100% no-repeat;
+}
 .scroll.tall { max-height: 85vh; overflow: auto; }
 table { border-collapse: separate; border-spacing: 0; width: 100%; font-size: .9rem; }
 th, td { text-align: left; padding: .32rem .8rem .32rem 0; border-bottom: 1px solid var(--line); vertical-align: baseline; }
@@ -183,7 +187,8 @@ td.definition { color: var(--soft); }
 figure { margin: 0; }
 figure img, figure svg { display: block; width: 100%; height: auto; border-radius: 6px; border: 1px solid var(--line); }
 figcaption { font-size: .8rem; padding-top: .2rem; overflow-wrap: anywhere; }
-.note + .sheet { margin-top: .8rem; }
+.note + .sheet, .sheet.pairs { margin-top: .8rem; }
+.sheet.pairs { grid-template-columns: repeat(2, minmax(0, 1fr)); }
 .missing { border: 1px dashed var(--line); border-radius: 6px; padding: 1rem; }
 .print-only { display: none; }
 @media (max-width: 800px) {
@@ -191,6 +196,7 @@ figcaption { font-size: .8rem; padding-top: .2rem; overflow-wrap: anywhere; }
   .card { padding: .8rem; }
   td:first-child:not(.number) { min-width: 6.5rem; }
   td.definition { min-width: 9.5rem; }
+  td.slower, td.faster, td.no-change, td.unknown { white-space: normal; }
   table.sortable td:first-child:not(.number) { min-width: 9rem; max-width: 12rem; }
 }
 @media print {
@@ -205,6 +211,8 @@ figcaption { font-size: .8rem; padding-top: .2rem; overflow-wrap: anywhere; }
   body { padding: 0; font-size: 10pt; }
   .card { border: 0; padding: 0; }
   .card, .scroll, .scroll.tall, .plots { overflow: visible; max-height: none; }
+  .scroll { background: none; }
+  .key i { print-color-adjust: exact; -webkit-print-color-adjust: exact; } /* printed without backgrounds, too */
   .plot, figure, tr, h3 { break-inside: avoid; }
   h2, h3, .answer { break-after: avoid; }
   thead { display: table-header-group; break-inside: avoid; }
@@ -212,6 +220,7 @@ figcaption { font-size: .8rem; padding-top: .2rem; overflow-wrap: anywhere; }
   table.runs { font-size: 7pt; width: 100%; }
   th, td, .number, table.runs td, table.runs td:not(.number), td[class] { white-space: normal; padding-right: 1.5mm; }
   td, td:not(.number), td:first-child:not(.number), td.definition, table.sortable td:first-child:not(.number) { min-width: 0; max-width: none; overflow-wrap: anywhere; }
+  td.number { white-space: nowrap; overflow-wrap: normal; }
   th button { display: contents; } /* heads with buttons are not repeated on each sheet */
   table.runs td:not(.number) { min-width: 12mm; }
   table.runs td:first-child:not(.number) { min-width: 22mm; }
@@ -221,7 +230,7 @@ figcaption { font-size: .8rem; padding-top: .2rem; overflow-wrap: anywhere; }
   .plots .card { margin-bottom: 4mm; }
   .plot svg { width: 100%; height: auto; }
   .small-plots { grid-template-columns: repeat(4, minmax(0, 1fr)); gap: 3mm; }
-  .sheet { grid-template-columns: repeat(4, minmax(0, 1fr)); }
+  .sheet, .sheet.pairs { grid-template-columns: repeat(4, minmax(0, 1fr)); }
   .filter, .tall tbody tr:nth-child(n+501), .tall .plot:nth-of-type(n+61) { display: none; }
   .print-only { display: block; }
 }
@@ -534,10 +543,11 @@ function plotList(box) {
 }
 function keyOf(plot, box) {
   const key = element("div", {class: "key"}, box);
-  for (const s of plot.series) {
+  const names = new Map(plot.series.map(s => [s.g ?? curve(s.k).n, s.c])); // curves of a group share an entry
+  for (const [name, colour] of names) {
     const entry = element("span", {}, key);
-    element("i", {style: "background:" + s.c}, entry);
-    entry.append(curve(s.k).n);
+    element("i", {style: "background:" + colour}, entry);
+    entry.append(name);
   }
 }
 const watched = new IntersectionObserver(found => {

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstddef>
 #include <fmt/format.h>
+#include <set>
 #include <span>
 #include <string_view>
 #include <utility>
@@ -48,6 +49,7 @@ std::string series_json(const PlotSeries& series) {
     std::string json = series.shared_curve ? fmt::format(R"({{"k":{})", *series.shared_curve)
                                            : fmt::format(R"({{"n":{},"x":{},"y":{})", script_string(series.name),
                                                  list(series.x), list(series.y));
+    if (series.shared_curve && !series.name.empty()) { json += ",\"g\":" + script_string(series.name); }
     json += fmt::format(R"(,"c":{},"s":"{}")", script_string(series.colour), style);
     if (series.style == Style::Area) { json += ",\"l\":" + list(series.y_low); }
     return json + "}";
@@ -105,15 +107,20 @@ std::string without_script(std::string_view pictures) {
     return fmt::format("<noscript>{}{}</noscript>", note_html("Plots are drawn by the page's script."), pictures);
 }
 
-/// The plot with the names and points of its shared curves.
+/// The plot with the points of its shared curves, and names as the script shows them.
 Plot with_points(Plot plot, std::span<const PlotSeries> curves) {
+    std::set<std::string> groups;
+    if (plot.title.empty()) { plot.title = curves[*plot.series.front().shared_curve].name; }
     for (PlotSeries& series : plot.series) {
         const PlotSeries& curve = curves[*series.shared_curve];
-        series.name = curve.name;
+        if (series.name.empty()) {
+            series.name = curve.name;
+        } else if (!groups.insert(series.name).second) {
+            series.name.clear(); // the first of them stands for all
+        }
         series.x = curve.x;
         series.y = curve.y;
     }
-    if (plot.title.empty()) { plot.title = plot.series.front().name; }
     return plot;
 }
 
@@ -126,11 +133,12 @@ const char* look_of(PlotWidth width) {
 
 } // namespace
 
-std::string page_plot(const Plot& plot, PlotWidth width) {
+std::string page_plot(const Plot& plot, PlotWidth width, PlotPicture picture_of) {
     return fmt::format("<div class=\"plot{}\" data-height=\"{}\"><h3>{}</h3>{}"
                        "<script type=\"application/json\">{}</script>{}</div>\n",
         look_of(width), height_px(width), escaped(plot.title),
-        width == PlotWidth::Small ? std::string() : key_html(plot), plot_json(plot), without_script({}));
+        width == PlotWidth::Small ? std::string() : key_html(plot), plot_json(plot),
+        without_script(picture_of != nullptr ? picture_of(plot) : std::string()));
 }
 
 std::string page_curves(std::span<const PlotSeries> curves) {

@@ -24,7 +24,8 @@ struct PlotSeries {
     std::vector<double> x = {};
     std::vector<double> y = {}; ///< as many as `x`; what is not finite is a gap
     std::vector<double> y_low = {};
-    std::optional<std::size_t> shared_curve = {}; ///< index in page_curves(), in place of name, `x` and `y`
+    /// Index in page_curves(), in place of `x` and `y`. A `name` then stands in the key for all curves that have it.
+    std::optional<std::size_t> shared_curve = {};
 };
 
 /// A level line across a plot.
@@ -62,15 +63,15 @@ enum class PlotWidth {
     Small      ///< one of many; without the names of its axes
 };
 
+/// Makes the HTML of a picture of a plot, for readers without script.
+using PlotPicture = std::string (*)(const Plot&);
+
 /// A plot for a page: its title, key and numbers, which the script of html_text.h draws at the size that it finds.
-/// Numbers have five significant digits.
-std::string page_plot(const Plot& plot, PlotWidth width);
+/// Numbers have five significant digits. Readers without script have a picture where `picture_of` is not null.
+std::string page_plot(const Plot& plot, PlotWidth width, PlotPicture picture_of = nullptr);
 
 /// Curves that plots of page_plot_list() share: their names and points, once in a page.
 std::string page_curves(std::span<const PlotSeries> curves);
-
-/// Makes the HTML of a picture of a plot, for readers without script.
-using PlotPicture = std::string (*)(const Plot&);
 
 /// Many plots, all of whose series are among these shared curves. The script makes them while the reader scrolls, so
 /// that a page of ten thousand opens at once. A plot without a title has the name of its first curve. Readers without

@@ -139,15 +139,22 @@ std::string label_of(const Words& words) {
     return label.starts_with('.') ? "_" + label : label;
 }
 
+/// In the order in which they stand in the file: the first is the baseline of the report.
 Axis SweepReader::named_groups(std::string_view name, const toml::table& table) const {
     Axis axis{std::string(name), flightpaths::line_of(table), {}};
-    for (const auto& [label, group] : table) {
+    std::vector<std::pair<std::string_view, const toml::node*>> groups; // the table has them by the alphabet
+    for (const auto& [label, group] : table) { groups.emplace_back(label.str(), &group); }
+    std::ranges::stable_sort(groups, {}, [](const auto& group) {
+        const toml::source_position& place = group.second->source().begin;
+        return std::pair(place.line, place.column);
+    });
+    for (const auto& [label, node] : groups) {
+        const toml::node& group = *node;
         const toml::table* const settings = group.as_table();
         if (settings == nullptr) {
-            refuse(group, fmt::format("expected a table [vary.{}.{}] of settings, got something else", name,
-                              std::string(label.str())));
+            refuse(group, fmt::format("expected a table [vary.{}.{}] of settings, got something else", name, label));
         }
-        AxisValue choice{label_of({std::string(label.str())}), {}};
+        AxisValue choice{label_of({std::string(label)}), {}};
         for (const auto& [key, value] : *settings) {
             choice.settings.emplace_back(std::string(key.str()), words_of(value));
         }

@@ -401,3 +401,37 @@ TEST_CASE("settings that are not set are not shown, and counters are where there
     CHECK_THAT(html_report(std::vector{older}), !Contains("page faults"));
     CHECK_THAT(html_report(std::vector{recording}), Contains("page faults"));
 }
+
+TEST_CASE("flights of other states are compared by their medians, and the page says so") {
+    const ScratchFolder scratch;
+    std::vector<LoadedRecording> recordings;
+    for (int i = 0; i < 6; ++i) {
+        recordings.push_back(made_up_recording(scratch / std::to_string(i), "t", i < 3 ? 5.0 : 7.0 + 0.1 * i));
+        recordings.back().run.settings[0].second = i < 3 ? "old" : "new";
+    }
+    std::string page = compared_page(recordings);
+    CHECK_THAT(page, Contains("<h1>6 flights compared</h1>") && !Contains("by medians") && !Contains("By medians"));
+    CHECK_THAT(page, Contains("Flights that did not alternate have a wider interval"));
+    CHECK_THAT(page, Contains("{\"k\":5,\"g\":\"note new\",\"c\":")); // an entry of the key for each variant
+    for (int i = 3; i < 6; ++i) { recordings[static_cast<std::size_t>(i)].run.state_hash = "0123456789abcdef"; }
+    page = compared_page(recordings);
+    CHECK_THAT(page, Contains("<td>by medians; other states</td>") && Contains("By medians: the frames are not the"));
+    CHECK_THAT(page, !Contains("no frames"));
+    recordings.resize(3);
+    CHECK_THAT(compared_page(recordings), Contains("<h1>3 flights</h1>") && !Contains("\"g\":"));
+}
+
+TEST_CASE("a page shows the pictures that its first tables link to, and frame times to readers without script") {
+    const ScratchFolder scratch;
+    const std::vector recordings{
+        made_up_recording(scratch / "one", "t", 5.0), made_up_recording(scratch / "two", "t", 5.0)};
+    std::vector<ResultTable> tables(1);
+    tables[0].add({{"flight", "turn"}, {"old", "picture-00003.png"}});
+    tables[0].rows[0][1].link = "one/picture-00003.png";
+    const std::string page = html_report(recordings, {.first_tables = tables, .folder = scratch.path()});
+    CHECK_THAT(page, Contains("<figcaption>turn, old</figcaption>"));
+    CHECK(count_of(page, "data:image/png;base64,") == 1 + 2);
+    const std::string of_one = html_report(std::span(recordings).first(1));
+    CHECK(count_of(of_one, "<noscript>") == 5);
+    CHECK(count_of(of_one, "<figure><svg") == 1); // of the frame times
+}

@@ -76,6 +76,14 @@ order-method = "tree"
     CHECK(sweep_of("").runs.size() == 1);
 }
 
+TEST_CASE("named groups stay in the order of the file, not of the alphabet") {
+    const Sweep sweep = sweep_of("[vary.ground.usual]\ntriangles = 8000\n[vary.ground.coarse]\ntriangles = 2000\n"
+                                 "[vary.ground.as-printed]\nterrain-lod = \"paper\"\n");
+    CHECK(names_of(sweep) == std::vector<std::string>{"usual", "coarse", "as-printed"});
+    CHECK(names_of(sweep_of("[vary]\norder = { b = { fov = 40 }, a = { fov = 50 } }")) ==
+          std::vector<std::string>{"b", "a"});
+}
+
 TEST_CASE("ranges of decimals end where they say, and names are fit for folders") {
     CHECK(names_of(sweep_of("[vary]\nerror-px = { from = 0.1, to = 0.3, step = 0.1 }")) ==
           std::vector<std::string>{"0.1", "0.2", "0.3"});
