@@ -468,7 +468,7 @@ def check_changes(page, compared, changes, outcomes):
         rows.append([row[h] for h in header])
     page.expect_table(card.all("table")[0], header, rows)
     note = card.all("p", "note")[0]
-    for pairing, words in (("rounds", "more than 4 standard deviations off, are left out"), ("frames", "with room for drift"),
+    for pairing, words in (("rounds", "more than 2.5 standard deviations off, are left out"), ("frames", "with room for drift"),
                            ("figures", "the medians of the flights' frame times are compared")):
         page.is_same(words, words in note.text(), any(c.pairing == pairing for c in changes))
     paused = sum(numpy.sum(r.paused) for c in changes for r in c.old + c.new)

@@ -329,6 +329,11 @@ def holm(p_values):
     return adjusted
 
 
+def mean_of_middle_half(values):
+    quarter = len(values) // 4
+    return numpy.mean(numpy.sort(values)[quarter:len(values) - quarter])
+
+
 class SameFrames:
     """Flights of the same frames, by the definitions of frame_change.h."""
 
@@ -343,7 +348,7 @@ class SameFrames:
         middle = numpy.median(far, axis=0)
         running = ~numpy.array([f.paused[:count] for f in flights])
         running = running[0::2] & running[1::2] if in_rounds else running
-        kept = running & (far <= middle + 4 * max(0.005, 1.4826 * numpy.median(numpy.abs(far - middle))))
+        kept = running & (far <= middle + 2.5 * max(0.005, 1.4826 * numpy.median(numpy.abs(far - middle))))
         few = 2 * kept.sum(axis=1) < count
         kept[few] = running[few]
         kept[2 * kept.sum(axis=1) < count] = True
@@ -362,7 +367,8 @@ class SameFrames:
     def change_ms(self, part, stage=None):
         times = self.ms if stage is None else self.stages[stage]
         over = times - numpy.median(times, axis=0)
-        values = numpy.array([numpy.mean(o[part][k[part]]) if k[part].any() else 0.0 for o, k in zip(over, self.kept)])
+        mean = numpy.mean if stage is None else mean_of_middle_half
+        values = numpy.array([mean(o[part][k[part]]) if k[part].any() else 0.0 for o, k in zip(over, self.kept)])
         return change_of(values, self.is_new, self.in_rounds, mean_of)
 
     def frames_changed(self):

@@ -20,10 +20,18 @@ struct FrameRange {
     std::size_t size() const { return end - begin; }
 };
 
-double mean_of_values(const Values& values) {
+double mean_of_values(Values values) {
     double sum = 0.0;
     for (const double value : values) { sum += value; }
     return values.empty() ? 0.0 : sum / static_cast<double>(values.size());
+}
+
+/// The mean without the least quarter of the values and the greatest. Times of a stage have longer tails than those of
+/// frames: what holds up a frame holds up one of its stages.
+double mean_of_middle_half(Values values) {
+    std::ranges::sort(values);
+    const auto quarter = static_cast<std::ptrdiff_t>(values.size() / 4);
+    return mean_of_values(Values(values.begin() + quarter, values.end() - quarter));
 }
 
 /// The median of values of flights, in which one side's flights together count as much as the other's: where all values
@@ -83,7 +91,8 @@ public:
 
     /// The change in milliseconds a frame of these frames.
     std::optional<Change> change_ms(FrameRange range) const {
-        return change_in(range, usual_ms_, [](const FrameTimes& each) { return std::span(each.frame_ms); });
+        const auto times_of = [](const FrameTimes& each) { return std::span(each.frame_ms); };
+        return change_in(range, usual_ms_, times_of, mean_of_values);
     }
 
     /// As change_ms(), of one stage; nothing where a flight knows no stages.
@@ -92,7 +101,7 @@ public:
         if (std::ranges::any_of(flights_, [&](const FrameTimes* each) { return times_of(*each).size() < frames_; })) {
             return std::nullopt;
         }
-        return change_in(range, medians_by_frame(times_of), times_of);
+        return change_in(range, medians_by_frame(times_of), times_of, mean_of_middle_half);
     }
 
     /// The mean change of each frame, in milliseconds.
@@ -139,7 +148,7 @@ private:
     void leave_out_held_frames() {
         constexpr double normal = 1.4826; // standard deviations in a median absolute deviation of normal values
         constexpr double min_deviation = 0.005;
-        constexpr double max_deviations = 4.0;
+        constexpr double max_deviations = 2.5;
         const std::size_t units = flights_.size() / unit_size();
         std::vector<Values> distances(units, Values(frames_));
         Values usual(frames_);
@@ -201,17 +210,15 @@ private:
     }
 
     template <class TimesOf>
-    std::optional<Change> change_in(FrameRange range, const Values& usual_ms, TimesOf times_of) const {
+    std::optional<Change> change_in(
+        FrameRange range, const Values& usual_ms, TimesOf times_of, double (*mean)(Values)) const {
         Values values;
         for (std::size_t f = 0; f < flights_.size(); ++f) {
-            double sum_ms = 0.0;
-            int count = 0;
+            Values differences_ms;
             for (std::size_t k = range.begin; k < range.end; ++k) {
-                if (!kept_[f][k]) { continue; }
-                sum_ms += times_of(*flights_[f])[k] - usual_ms[k];
-                ++count;
+                if (kept_[f][k]) { differences_ms.push_back(times_of(*flights_[f])[k] - usual_ms[k]); }
             }
-            values.push_back(count > 0 ? sum_ms / count : 0.0);
+            values.push_back(mean(std::move(differences_ms)));
         }
         return in_rounds_ ? mean_of(round_differences(trials_of(values))) : change_of(trials_of(values));
     }

@@ -396,7 +396,7 @@ std::string remarks_on(const FlightChange& change) {
 
 /// How the changes were found, in each of the ways that the rows have.
 std::string pairing_text(const Comparison& comparison) {
-    constexpr std::array texts{" Frames that something else held up, whose new / old time is more than 4 standard "
+    constexpr std::array texts{" Frames that something else held up, whose new / old time is more than 2.5 standard "
                                "deviations off, are left out.",
         " Flights that did not alternate have a wider interval, with room for drift of the machine.",
         " By medians: the frames are not the same, so the medians of the flights' frame times are compared, and the "
