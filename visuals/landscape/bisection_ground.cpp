@@ -389,6 +389,10 @@ public:
 
     std::shared_ptr<const scene::LandCoverContrast> land_cover_contrast() const override { return contrast_; }
 
+    std::optional<double> water_level_m() const override {
+        return water_level_of(air(), climate_at(tiles_->metadata().place));
+    }
+
     glm::vec3 colour_at(double x_m, double y_m, double footprint_m) const override {
         const terrain::GroundSamples samples(*tiles_);
         const GroundPalette palette(air(), climate_at(tiles_->metadata().place), terrain_shadows_);
@@ -502,7 +506,7 @@ public:
         last_eye_m_ = eye_m;
         counts = {static_cast<int>(drawn_mesh_.indices.size() / 3), mesh_.counters.fans, 0.0, mesh_.error_px,
             static_cast<int>(drawn_mesh_.detail_triangles), static_cast<int>(drawn_mesh_.scenery_triangles)};
-        return {drawn_mesh_.vertices, drawn_mesh_.indices};
+        return {drawn_mesh_.vertices, drawn_mesh_.indices, drawn_mesh_.standing};
     }
 
     void triangles_in(const BoxTest& wanted, std::vector<std::uint32_t>& triangles) const override {
@@ -582,7 +586,7 @@ private:
     }
 
     void show(const terrain::GroundMesh& mesh) {
-        drawn_mesh_ = {mesh.vertices, mesh.indices, 0, 0};
+        drawn_mesh_ = {mesh.vertices, mesh.indices, {}, 0, 0};
         if (adds_detail()) {
             drawn_mesh_ = detailed_ground_.detailed_mesh(
                 mesh, near_view_, detail_, decorations_, has_texture_ ? nullptr : &colour_at_point_);

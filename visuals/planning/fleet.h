@@ -34,6 +34,10 @@ public:
     void place(const FrameView& view, const PlanRequest& request,
         std::span<const std::optional<AxisAlignedBox>> effect_bounds);
 
+    /// Writes to `parts` where the parts of placed() were in an earlier frame, as parts() is numbered, with the eye of
+    /// `view` subtracted; zero for absent aircraft. Follows place().
+    void place_before(const FrameView& view, const PreviousFrame& before, std::span<glm::mat4> parts) const;
+
     /// Refines the progressive meshes of the aircraft that are drawn by one. Follows place().
     void refine(const FrameView& view);
 

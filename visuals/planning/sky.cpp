@@ -244,6 +244,8 @@ void Atmosphere::write(const FrameView& view, scene::FramePlan& plan) {
     plan.sunlight = daylight_.sunlight();
     plan.haze = haze_;
     plan.haze.visibility_m = visibility_m(eye_m.z);
+    plan.truth.first_land_vertex = sky_.first_land_vertex();
+    plan.truth.land_has_cover_codes = ground.land_cover_contrast() != nullptr;
     if (settings_.sky) {
         plan.sky = sky_.around({eye_m.z - ground.mean_height_m(), distance_to_edge_m(ground, eye_m),
                                    ground.mean_colour(), view.earth_radius_m},

@@ -40,6 +40,9 @@ public:
     /// its mean height.
     scene::TriangleDraw around(const SurroundingPlain& plain, const scene::Haze& haze, const glm::dvec3& eye_m = {});
 
+    /// The first of the vertices that belongs to the land around the map.
+    std::size_t first_land_vertex() const { return sky_vertices_; }
+
 private:
     void add_ring_triangles(std::uint32_t upper, std::uint32_t lower, int corners);
     void add_dome(const nature::Daylight& day);
