@@ -488,7 +488,11 @@ public:
         if (std::exchange(has_mesh_begun_, true)) { return; }
         set_target(request);
         next_mesh_view_ = view_of(request);
-        background_task_.begin([this] { make(next_mesh_view_); }, on_idle_thread);
+        const auto work = [this] {
+            make(next_mesh_view_);
+            mesher_.measure_boxes(); // here, where nobody waits for it
+        };
+        background_task_.begin(work, on_idle_thread);
     }
 
     void wait() override { background_task_.wait(); }
@@ -579,7 +583,6 @@ private:
                 }
             }
             is_coloured_ = true;
-            mesher_.measure_boxes();
             show(mesh);
         }
         mesh_ = mesh;

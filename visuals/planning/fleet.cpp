@@ -35,13 +35,16 @@ glm::dmat4 body_to_eye_world(const sim::AircraftState& state, const glm::dvec3& 
 
 constexpr double absent_depth_m = 1e5;
 
-/// The state as it is seen over a round earth: sunk as far as the ground below it.
-sim::AircraftState sunk(sim::AircraftState state, const glm::dvec3& eye_m, double earth_radius_m) {
-    if (earth_radius_m > 0.0) {
-        const glm::dvec2 level_m(state.position_m - eye_m);
-        state.position_m.z -= glm::dot(level_m, level_m) / (2.0 * earth_radius_m);
+scene::PolygonTints model_tints(const PlacedAircraft& aircraft, scene::ModelDisplay look) {
+    const AircraftModel& model = *aircraft.model;
+    if (look == scene::ModelDisplay::None || (look == scene::ModelDisplay::Levels && is_refined(aircraft))) {
+        return {};
     }
-    return state;
+    if (look == scene::ModelDisplay::Shading) { return shading_tints; }
+    const double radius_m = model.progressive ? model.progressive->half_diagonal_m() : model.subject.radius_m;
+    const double error_m = is_far(aircraft) ? aircraft.far_error_m : model.errors_m[aircraft.representation];
+    const std::uint32_t colour = level_colour(error_m, radius_m);
+    return {colour, colour};
 }
 
 /// Writes the matrices of an aircraft's parts in a state, with the eye subtracted.
@@ -56,19 +59,15 @@ void place_all_parts(const PlacedAircraft& aircraft, const sim::AircraftState& s
     }
 }
 
-scene::PolygonTints model_tints(const PlacedAircraft& aircraft, scene::ModelDisplay look) {
-    const AircraftModel& model = *aircraft.model;
-    if (look == scene::ModelDisplay::None || (look == scene::ModelDisplay::Levels && is_refined(aircraft))) {
-        return {};
-    }
-    if (look == scene::ModelDisplay::Shading) { return shading_tints; }
-    const double radius_m = model.progressive ? model.progressive->half_diagonal_m() : model.subject.radius_m;
-    const double error_m = is_far(aircraft) ? aircraft.far_error_m : model.errors_m[aircraft.representation];
-    const std::uint32_t colour = level_colour(error_m, radius_m);
-    return {colour, colour};
-}
-
 } // namespace
+
+sim::AircraftState sunk(sim::AircraftState state, const glm::dvec3& eye_m, double earth_radius_m) {
+    if (earth_radius_m > 0.0) {
+        const glm::dvec2 level_m(state.position_m - eye_m);
+        state.position_m.z -= glm::dot(level_m, level_m) / (2.0 * earth_radius_m);
+    }
+    return state;
+}
 
 Fleet::Fleet(const Scene& scene, const scene::Settings& settings) : scene_(scene), settings_(settings) {
     for (const std::uint32_t model : scene.aircraft) {

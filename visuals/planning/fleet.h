@@ -21,6 +21,9 @@
 
 namespace octant::visuals::planning {
 
+/// The state as it is seen over a round earth: sunk as far as the ground below it. `earth_radius_m`: 0 = as it is.
+sim::AircraftState sunk(sim::AircraftState state, const glm::dvec3& eye_m, double earth_radius_m);
+
 /// The aircraft of one view, and the cockpit around its eye: their places in each frame, their representations
 /// (polygons in the order for its eye point, a level of detail, or a mesh refined for the frame), and their bounding
 /// boxes. Levels of detail and refined meshes depend on the frames before.

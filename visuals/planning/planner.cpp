@@ -142,6 +142,8 @@ public:
         }
     }
 
+    double earth_radius_m() const { return mesher_->earth_radius_m(); }
+
     void forget_frames() {
         is_settled_ = false;
         is_placed_ = false;
@@ -243,7 +245,9 @@ private:
             previous.reset();
             return;
         }
-        const FrameView view = view_of(request.previous->camera);
+        PlanRequest before{request.previous->camera, request.previous->states};
+        before.size_px = request.size_px;
+        const FrameView view = view_of(before);
         if (!previous) { previous.emplace(); }
         previous->world_to_view = world_to_view(view.camera);
         previous->view_to_clip = view_to_clip(view.camera, view.aspect);
@@ -358,6 +362,8 @@ void Planner::wait() { impl_->wait(); }
 void Planner::place_aircraft(const PlanRequest& request) { impl_->place_aircraft(request); }
 
 PlannedFrame Planner::plan(const PlanRequest& request) { return impl_->plan(request); }
+
+double Planner::earth_radius_m() const { return impl_->earth_radius_m(); }
 
 void Planner::forget_frames() { impl_->forget_frames(); }
 
