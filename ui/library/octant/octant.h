@@ -279,7 +279,7 @@ public:
 private:
     struct Impl;
     friend struct WorldAccess; ///< of the library itself
-    World(std::shared_ptr<Impl> impl, std::nullptr_t);
+    [[gnu::visibility("hidden")]] World(std::shared_ptr<Impl> impl, std::nullptr_t);
 
     std::shared_ptr<Impl> impl_; ///< never null
 };
