@@ -38,15 +38,14 @@ public:
 
     /// The overlay of a frame, `transparents` first; valid until the next call. `marks_path`: legs of the first
     /// aircraft's path are named, which must be known.
-    scene::OverlayDraw draw(const scene::OverlayDraw& transparents, const PlanRequest& request, bool marks_path) {
+    scene::OverlayDraw draw(const scene::OverlayDraw& transparents, const PlanRequest& request,
+        const glm::ivec2& size_px, bool marks_path) {
         const scene::Camera& camera = request.camera;
-        const sim::AircraftState& first = request.states.front();
-        const glm::ivec2& size_px = settings_.view.size_px;
         layers_.clear();
         layers_.add(transparents);
-        if (marks_path) { layers_.add(path_marks(camera, first.position_m)); }
+        if (marks_path) { layers_.add(path_marks(camera, size_px, request.states.front().position_m)); }
         if (settings_.view.kind == scene::View::Cockpit) {
-            const overlay::InstrumentReadings readings = readings_of(first);
+            const overlay::InstrumentReadings readings = readings_of(request.states.front());
             overlay::add_instruments(layers_, canvases_, scene_.dials, readings, camera, size_px);
             if (settings_.view.head_up_display) {
                 layers_.add(overlay::draw_head_up_display(canvases_[0], readings, camera, size_px));
@@ -60,13 +59,13 @@ public:
 
 private:
     /// The names of the legs of the first aircraft's path, where the legs begin.
-    scene::OverlayDraw path_marks(const scene::Camera& camera, const glm::dvec3& aircraft_m) {
+    scene::OverlayDraw path_marks(
+        const scene::Camera& camera, const glm::ivec2& size_px, const glm::dvec3& aircraft_m) {
         labels_.clear();
         for (const DrawnPath::Leg& leg : scene_.path->legs) {
             labels_.push_back({scene_.path->points[leg.first_point].position_m - camera.eye_m, leg.name});
         }
-        return overlay::draw_path_annotations(
-            canvases_[0], camera, settings_.view.size_px, aircraft_m - camera.eye_m, labels_);
+        return overlay::draw_path_annotations(canvases_[0], camera, size_px, aircraft_m - camera.eye_m, labels_);
     }
 
     overlay::InstrumentReadings readings_of(const sim::AircraftState& state) const {
@@ -137,27 +136,38 @@ public:
         transparents_.set_daylight(atmosphere_->daylight());
     }
 
-    void settle_detail(const scene::Camera& camera) {
-        if (!std::exchange(is_settled_, true)) { mesher_->reset_detail(ground_request(camera, std::nullopt)); }
+    void settle_detail(const PlanRequest& request) {
+        if (!std::exchange(is_settled_, true)) {
+            mesher_->reset_detail(ground_request(view_of(request), std::nullopt));
+        }
+    }
+
+    double earth_radius_m() const { return mesher_->earth_radius_m(); }
+
+    void forget_frames() {
+        is_settled_ = false;
+        is_placed_ = false;
+        fleet_.forget_frames();
+        smooth_.forget_frames();
     }
 
     void begin_next_mesh(
         const scene::Camera& camera, std::optional<int> triangle_target, const IdleThreadRunner& on_idle_thread) {
-        mesher_->begin_next_mesh(ground_request(camera, triangle_target), on_idle_thread);
+        mesher_->begin_next_mesh(ground_request(view_of({camera, {}}), triangle_target), on_idle_thread);
     }
 
     void wait() { mesher_->wait(); }
 
     void place_aircraft(const PlanRequest& request) {
         if (std::exchange(is_placed_, true)) { return; }
-        const FrameView view = view_of(request.camera);
+        const FrameView view = view_of(request);
         fleet_.place(view, request, transparents_.effect_bounds());
         fleet_.refine(view);
     }
 
     PlannedFrame plan(const PlanRequest& request) {
-        settle_detail(request.camera);
-        const FrameView view = view_of(request.camera);
+        settle_detail(request);
+        const FrameView view = view_of(request);
         PlanCounts counts;
         place_aircraft(request);
         is_placed_ = false;
@@ -165,7 +175,9 @@ public:
         const GroundFrame ground = make_ground(request, view, counts);
         atmosphere_->write(view, plan_);
         transparents_.make(view, request, fleet_, plan_);
-        plan_.overlay = overlay_.draw(transparents_.draw(), request, transparents_.has_ribbon());
+        note_clouds(view);
+        note_previous(request);
+        plan_.overlay = overlay_.draw(transparents_.draw(), request, view.size_px, transparents_.has_ribbon());
         count(choose_smooth(request.smooth), counts);
         painter_.paint(
             {view, fleet_, smooth_, transparents_, ground, *mesher_}, settings_.surface.hidden_surface, counts);
@@ -173,15 +185,15 @@ public:
     }
 
     void advance_without_drawing(const PlanRequest& request) {
-        settle_detail(request.camera);
+        settle_detail(request);
         place_aircraft(request);
         is_placed_ = false;
         choose_smooth(request.smooth);
     }
 
 private:
-    FrameView view_of(const scene::Camera& camera) const {
-        return frame_view(camera, settings_.view.size_px, mesher_->earth_radius_m());
+    FrameView view_of(const PlanRequest& request) const {
+        return frame_view(request.camera, request.size_px.value_or(settings_.view.size_px), mesher_->earth_radius_m());
     }
 
     /// Empties the lists of the plan and writes what depends on the view and the aircraft alone.
@@ -210,23 +222,57 @@ private:
     }
 
     /// The mesh of the ground gets the requested triangles less those of decorations that lie on it.
-    landscape::MeshRequest ground_request(const scene::Camera& camera, std::optional<int> triangle_target) const {
+    landscape::MeshRequest ground_request(const FrameView& view, std::optional<int> triangle_target) const {
         const int asked = requested_triangles(triangle_target);
-        const FrameView view = view_of(camera);
         int lying = 0;
         for (const auto& decoration : mesher_->decorations()) {
-            lying += decoration->max_patch_triangles(camera.eye_m, view.pixel_rad, asked);
+            lying += decoration->max_patch_triangles(view.camera.eye_m, view.pixel_rad, asked);
         }
-        return {camera, view.aspect, asked >= terrain::unlimited_triangles ? asked : std::max(asked - lying, 1)};
+        return {view.camera, view.aspect, asked >= terrain::unlimited_triangles ? asked : std::max(asked - lying, 1),
+            view.size_px.y};
+    }
+
+    scene::WaterSurface water_of(const FrameView& view) const {
+        const std::optional<double> level_m = scene_.ground->water_level_m();
+        if (!level_m) { return {}; }
+        return {static_cast<float>(*level_m - view.camera.eye_m.z), static_cast<float>(view.earth_radius_m)};
+    }
+
+    /// Writes what the flow is counted from.
+    void note_previous(const PlanRequest& request) {
+        std::optional<scene::PreviousPicture>& previous = plan_.truth.previous;
+        if (!request.previous) {
+            previous.reset();
+            return;
+        }
+        PlanRequest before{request.previous->camera, request.previous->states};
+        before.size_px = request.size_px;
+        const FrameView view = view_of(before);
+        if (!previous) { previous.emplace(); }
+        previous->world_to_view = world_to_view(view.camera);
+        previous->view_to_clip = view_to_clip(view.camera, view.aspect);
+        previous->eye_moved_m = request.camera.eye_m - view.camera.eye_m;
+        previous->parts.resize(plan_.parts.size());
+        fleet_.place_before(view, *request.previous, previous->parts);
+    }
+
+    void note_clouds(const FrameView& view) {
+        const TransparentRange clouds = transparents_.clouds();
+        plan_.truth.first_cloud_index = static_cast<std::uint32_t>(clouds.first);
+        plan_.truth.cloud_index_count = static_cast<std::uint32_t>(clouds.count);
+        plan_.truth.cloud_height_m =
+            static_cast<float>(transparents_.cloud_height_m().value_or(0.0) - view.camera.eye_m.z);
     }
 
     /// Meshes the ground, lays decorations on it within the rest of the requested triangles, and casts shadows.
     GroundFrame make_ground(const PlanRequest& request, const FrameView& view, PlanCounts& counts) {
         const scene::TriangleDraw triangles =
-            mesher_->triangles(ground_request(request.camera, request.triangle_target), counts.ground);
+            mesher_->triangles(ground_request(view, request.triangle_target), counts.ground);
         const bool is_front_to_back = settings_.surface.hidden_surface == scene::HiddenSurface::DepthBuffer;
+        plan_.truth.water = water_of(view);
         pieces_.begin(
-            {view, *mesher_, triangles, is_front_to_back, plan_.ground_texture.has_value()}, plan_.shadow_vertices);
+            {view, *mesher_, triangles, is_front_to_back, plan_.ground_texture.has_value(), plan_.truth.water},
+            plan_.shadow_vertices, plan_.truth.piece_surfaces);
         const int asked = requested_triangles(request.triangle_target);
         for (const auto& decoration : mesher_->decorations()) {
             const int max_triangles = decoration->max_patch_triangles(view.camera.eye_m, view.pixel_rad, asked);
@@ -304,7 +350,7 @@ void Planner::apply_settings() { impl_ = Impl::under_other_settings(std::move(im
 
 void Planner::set_sun() { impl_->set_sun(); }
 
-void Planner::settle_detail(const scene::Camera& camera) { impl_->settle_detail(camera); }
+void Planner::settle_detail(const scene::Camera& camera) { impl_->settle_detail({camera, {}}); }
 
 void Planner::begin_next_mesh(
     const scene::Camera& camera, std::optional<int> triangle_target, const IdleThreadRunner& on_idle_thread) {
@@ -316,6 +362,10 @@ void Planner::wait() { impl_->wait(); }
 void Planner::place_aircraft(const PlanRequest& request) { impl_->place_aircraft(request); }
 
 PlannedFrame Planner::plan(const PlanRequest& request) { return impl_->plan(request); }
+
+double Planner::earth_radius_m() const { return impl_->earth_radius_m(); }
+
+void Planner::forget_frames() { impl_->forget_frames(); }
 
 void Planner::advance_without_drawing(const PlanRequest& request) { impl_->advance_without_drawing(request); }
 
