@@ -344,7 +344,8 @@ class SameFrames:
         self.stages = [numpy.array([f.compared_stages[s][:count] for f in flights]) for s in range(5)]
         self.usual = numpy.median(self.ms, axis=0)
         ms = numpy.maximum(self.ms, 1e-6)
-        far = numpy.abs(numpy.log(ms[0::2] / ms[1::2])) if in_rounds else numpy.abs(numpy.log(ms / numpy.maximum(self.usual, 1e-6)))
+        far = numpy.log(ms[0::2] / ms[1::2]) if in_rounds else numpy.log(ms / numpy.maximum(self.usual, 1e-6))
+        far = numpy.abs(far - numpy.median(far, axis=1, keepdims=True))
         middle = numpy.median(far, axis=0)
         running = ~numpy.array([f.paused[:count] for f in flights])
         running = running[0::2] & running[1::2] if in_rounds else running

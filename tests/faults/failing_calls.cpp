@@ -147,6 +147,8 @@ void operator delete[](void* memory, std::size_t /*bytes*/, std::align_val_t /*a
     std::free(memory);
 }
 
+// The names that the program calls have to be seen: all other code is compiled with hidden ones.
+#pragma GCC visibility push(default)
 extern "C" {
 
 using Main = int (*)(int, char**, char**);
@@ -232,3 +234,4 @@ int fsync(int descriptor) {
 }
 
 } // extern "C"
+#pragma GCC visibility pop

@@ -135,12 +135,18 @@ private:
     /// A flight, or the two of a round: what is left out is left out in the whole unit.
     std::size_t unit_size() const { return in_rounds_ ? 2 : 1; }
 
-    /// How far a frame of a unit is from where it should be, as a logarithm: from the other frame of the round, else
-    /// from its usual time.
-    double distance(std::size_t unit, std::size_t k) const {
-        const auto time_of = [&](std::size_t f) { return std::max(flights_[f]->frame_ms[k], 1e-6); };
-        const double other = in_rounds_ ? time_of(2 * unit + 1) : std::max(usual_ms_[k], 1e-6);
-        return std::abs(std::log(time_of(unit_size() * unit) / other));
+    /// How far each frame of a unit is from where it should be, as a logarithm: from the other frame of the round, else
+    /// from its usual time, and then from the middle of the unit's frames, so that a change of all of them is not far.
+    Values distances(std::size_t unit) const {
+        Values ratios;
+        for (std::size_t k = 0; k < frames_; ++k) {
+            const auto time_of = [&](std::size_t f) { return std::max(flights_[f]->frame_ms[k], 1e-6); };
+            const double other = in_rounds_ ? time_of(2 * unit + 1) : std::max(usual_ms_[k], 1e-6);
+            ratios.push_back(std::log(time_of(unit_size() * unit) / other));
+        }
+        const double middle = median_of(ratios);
+        for (double& ratio : ratios) { ratio = std::abs(ratio - middle); }
+        return ratios;
     }
 
     /// Leaves out frames in which a program was stopped, and those that are far from where they should be, measured by
@@ -150,17 +156,18 @@ private:
         constexpr double min_deviation = 0.005;
         constexpr double max_deviations = 2.5;
         const std::size_t units = flights_.size() / unit_size();
-        std::vector<Values> distances(units, Values(frames_));
+        std::vector<Values> distances_of_units;
+        for (std::size_t u = 0; u < units; ++u) { distances_of_units.push_back(distances(u)); }
         Values usual(frames_);
         Values deviations;
         for (std::size_t k = 0; k < frames_; ++k) {
             Values column;
-            for (std::size_t u = 0; u < units; ++u) { column.push_back(distances[u][k] = distance(u, k)); }
+            for (const Values& of_unit : distances_of_units) { column.push_back(of_unit[k]); }
             usual[k] = in_rounds_ ? median_of(column) : median_of_sides(column, sides_);
             for (const double each : column) { deviations.push_back(std::abs(each - usual[k])); }
         }
         const double limit = max_deviations * std::max(min_deviation, normal * median_of(std::move(deviations)));
-        for (const Values& of_unit : distances) {
+        for (const Values& of_unit : distances_of_units) {
             const std::size_t first = kept_.size();
             const auto keep_where = [&](const auto& is_kept) {
                 std::vector<bool> kept(frames_);

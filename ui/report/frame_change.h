@@ -45,14 +45,13 @@ struct ChangedStage {
 
 /// How the frame times of two sets of flights differ. Of the same frames (Rounds, Frames) all that is told can be
 /// recomputed from frames.csv by these definitions. `usual` is the median of a frame's time over all flights.
-/// - Frames left out: d is |log(first / second time)| of a round's two flights, else |log(time / usual)|. A round, or a
-///   flight, loses a frame whose d is above the median of that frame's d over all rounds (flights) by more than 2.5 s;
-///   s is 1.4826 times the median distance of all d from these medians, at least 0.005. Where it would lose more than
-///   half of its frames it keeps all.
+/// - Frames left out: x is log(first / second time) of a round's two flights, else log(time / usual); d is the distance
+///   of x from the median x of all frames of that round (flight). A round (flight) loses a frame whose d is above the
+///   median of that frame's d over all rounds (flights) by more than 2.5 s; s is 1.4826 times the median distance of all
+///   d from these medians, at least 0.005. Where it would lose more than half of its frames it keeps all.
 /// - A flight's value is the mean of log(time / usual), weighted by usual; `change` is change_of() these values.
 /// - A part of the flight: its change in milliseconds is mean_of() the rounds' differences (change_of() without rounds)
-///   of the flights' mean of time - usual, in that part; of a stage the mean of the middle
-///   half of these values.
+///   of the flights' mean of time - usual, in that part; of a stage the mean of the middle half of these values.
 /// - `frames_changed`: the flight is cut into as many equal blocks of 4 frames or more as there are, at most 25, and
 ///   blocks change for sure by Holm among them. From a sure block to a sure one of the same sign, with at most one
 ///   other block between two, the run with the greatest sum of change in ms is taken unless it is above 70 % of the

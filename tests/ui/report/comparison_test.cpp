@@ -188,14 +188,14 @@ TEST_CASE("a slower stage of recordings is told in one line, in a verdict and in
     CHECK(change.same_states);
     CHECK_FALSE(change.same_pictures);
     CHECK(change.is_changed());
-    CHECK(answer_text(changes, 0.0, 0.02) == fmt::format("{:.1f} % slower ({:.1f} to {:.1f} %); draw stage +0.51 ms",
+    CHECK(answer_text(changes, 0.0, 0.02) == fmt::format("{:.1f} % slower ({:.1f} to {:.1f} %); draw stage +0.5 ms",
                                                  100.0 * change.frames.share(), 100.0 * change.frames.low_share(),
                                                  100.0 * change.frames.high_share()));
     CHECK(verdict_of(changes, 0.0, 0.02) == Verdict::Slower);
     CHECK(verdict_of(changes, 0.2, 0.02) == Verdict::NotSlower);
     CHECK(verdict_of(changes, change.frames.share(), 1e-5) == Verdict::CannotTell);
     CHECK_THAT(answer_text(changes, change.frames.share(), 1e-5),
-        Catch::Contains("draw stage +0.51 ms; cannot tell whether more than 10 % slower"));
+        Catch::Contains("draw stage +0.5 ms; cannot tell whether more than 10 % slower"));
     const std::string line = csv_line(change_columns(), change);
     CHECK_THAT(line, Catch::Contains(",rounds,6,6,110,") && Catch::Contains(",1,draw,0.50"));
 }
