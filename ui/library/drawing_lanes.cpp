@@ -92,6 +92,7 @@ void DrawingLanes::give_back(std::unique_ptr<DrawingLane> lane) {
 
 bool DrawingLanes::for_each(std::size_t count, int threads, const std::function<bool()>& is_stopped,
     const std::function<void(std::size_t index, DrawingLane& lane)>& work) {
+    if (count == 0) { return true; }
     std::atomic<std::size_t> next{0};
     std::atomic<bool> ends{false};
     std::atomic<bool> has_failed{false};
@@ -114,7 +115,7 @@ bool DrawingLanes::for_each(std::size_t count, int threads, const std::function<
             if (!has_failed.exchange(true)) { exception = std::current_exception(); }
         }
     };
-    const std::size_t helpers = std::min(count, static_cast<std::size_t>(std::max(threads, 1))) - (count > 0 ? 1 : 0);
+    const std::size_t helpers = std::min(count, static_cast<std::size_t>(std::max(threads, 1))) - 1;
     {
         std::vector<std::jthread> running; // joined at the end of the block
         for (std::size_t i = 0; i < helpers; ++i) { running.emplace_back(draw, false); }

@@ -14,7 +14,8 @@ write_basic_package_version_file(${CMAKE_CURRENT_BINARY_DIR}/octant-config-versi
   COMPATIBILITY SameMinorVersion)
 install(FILES ${CMAKE_CURRENT_BINARY_DIR}/octant-config-version.cmake DESTINATION ${octant_package_folder}
   COMPONENT development)
-file(CONFIGURE OUTPUT octant.pc @ONLY CONTENT "prefix=\${pcfiledir}/../../..
+file(RELATIVE_PATH octant_prefix /${CMAKE_INSTALL_LIBDIR}/pkgconfig /)
+file(CONFIGURE OUTPUT octant.pc @ONLY CONTENT "prefix=\${pcfiledir}/@octant_prefix@
 Name: octant
 Description: pictures of flight over terrain with their ground truth, drawn by the processor
 Version: @PROJECT_VERSION@

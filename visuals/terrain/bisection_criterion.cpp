@@ -298,7 +298,7 @@ inline Float4 BisectionCriterion::errors_m(const Codes& codes_with) const {
 }
 
 unsigned BisectionCriterion::crossed_planes_of_node(
-    const NodeContext& place, const VerticalDistances& distances, float margin_m, unsigned planes) const {
+    const NodeContext& place, float lowest_m, float highest_m, float margin_m, unsigned planes) const {
     const int edge = memory(place.level).edge();
     const int west = place.column * edge;
     const int south = place.row * edge;
@@ -308,8 +308,8 @@ unsigned BisectionCriterion::crossed_planes_of_node(
     const glm::dvec2 centre_m(west_m_ + (west + east) * half_spacing_m, south_m_ + (south + north) * half_spacing_m);
     const glm::dvec2 half_m((east - west) * half_spacing_m, (north - south) * half_spacing_m);
     const double margin = static_cast<double>(margin_m) + criterion_margin_m;
-    double low_m = static_cast<double>(distances.lowest_m) - view_.eye_m.z - margin;
-    double high_m = static_cast<double>(distances.highest_m) - view_.eye_m.z + margin;
+    double low_m = static_cast<double>(lowest_m) - view_.eye_m.z - margin;
+    double high_m = static_cast<double>(highest_m) - view_.eye_m.z + margin;
     if (half_curvature_per_m_ > 0.0) {
         const glm::dvec2 off_m = glm::abs(centre_m);
         const glm::dvec2 far_m = off_m + half_m;

@@ -305,9 +305,10 @@ public:
     float share_below_middle(int level, int column, int row, std::size_t edge) const;
 
     /// crossed_planes (frustum.h) for a box around all triangles of a node in any mesh, whose vertices are drawn up to
-    /// `margin_m` above or below the node's samples.
+    /// `margin_m` above or below the node's samples. `lowest_m`, `highest_m`: of the node, or of its ancestor of
+    /// range_level.
     unsigned crossed_planes_of_node(
-        const NodeContext& place, const VerticalDistances& distances, float margin_m, unsigned planes) const;
+        const NodeContext& place, float lowest_m, float highest_m, float margin_m, unsigned planes) const;
 
     /// The drop of the ground by the earth's curvature at a point, given in metres east and north of the eye.
     template <typename Real>

@@ -101,7 +101,9 @@ std::uint32_t BisectionSelection::visit(const PendingNode& from) {
         PendingNode next;
         next.place = child_place(from.place, q);
         if (next.place.level <= criterion_->ground().layout().range_level()) {
-            next.place.distances = &distances_[static_cast<std::size_t>(next.place.level)][q];
+            VerticalDistances& distances = distances_[static_cast<std::size_t>(next.place.level)][q];
+            distances = criterion_->vertical_distances_of(next.place.level, next.place.column, next.place.row);
+            next.place.distances = &distances;
         }
         next.planes = children.planes[q];
         next.node_limit = criticals.quadrant[q];
@@ -130,7 +132,6 @@ inline void BisectionSelection::test_children(const PendingNode& from, Children&
     const GroundLayout& layout = criterion_->ground().layout();
     const GroundLayout::Level& at = layout.level(from.place.level + 1);
     const bool has_own_distances = from.place.level < layout.range_level();
-    std::array<VerticalDistances, 4>& own = distances_[static_cast<std::size_t>(from.place.level) + 1];
     for (unsigned q = 0; q < 4; ++q) {
         const NodeContext place = child_place(from.place, q);
         if (place.column >= at.columns || place.row >= at.rows) {
@@ -138,16 +139,16 @@ inline void BisectionSelection::test_children(const PendingNode& from, Children&
             continue;
         }
         ++nodes_tested_;
-        const VerticalDistances* distances = from.place.distances;
-        if (has_own_distances) {
-            own[q] = criterion_->vertical_distances_of(place.level, place.column, place.row);
-            distances = &own[q];
-        }
         if (from.planes != 0) {
+            const GroundTiles& ground = criterion_->ground();
+            const float lowest_m = has_own_distances ? ground.lowest_m(place.level, place.column, place.row)
+                                                     : from.place.distances->lowest_m;
+            const float highest_m = has_own_distances ? ground.highest_m(place.level, place.column, place.row)
+                                                      : from.place.distances->highest_m;
             // Where the border cuts a node, points on it are between samples of the padded square.
             const bool moves = geomorphs_ || is_cut(at, place);
             const float margin_m = moves ? from.error_m : 0.0F;
-            children.planes[q] = criterion_->crossed_planes_of_node(place, *distances, margin_m, from.planes);
+            children.planes[q] = criterion_->crossed_planes_of_node(place, lowest_m, highest_m, margin_m, from.planes);
             children.hidden |= children.planes[q] == outside_frustum ? 1U << q : 0U;
         }
     }

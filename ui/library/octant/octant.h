@@ -260,7 +260,7 @@ public:
     /// One for each aircraft of the settings, in their order; fewer leave the others absent. Before the first call they
     /// fly in formation, at the beginning of the path where there is one, else 300 m above the middle of the map.
     void set_states(std::span<const State> states);
-    std::span<const State> states() const;
+    std::span<const State> states() const; ///< valid until the next set_states()
 
     Frames render(const Camera& camera, std::span<const Pose> poses, Output outputs = Output::Rgb,
         const RenderOptions& options = {}) const;
@@ -279,7 +279,7 @@ public:
 private:
     struct Impl;
     friend struct WorldAccess; ///< of the library itself
-    World(std::shared_ptr<Impl> impl, std::nullptr_t);
+    [[gnu::visibility("hidden")]] World(std::shared_ptr<Impl> impl, std::nullptr_t);
 
     std::shared_ptr<Impl> impl_; ///< never null
 };
