@@ -85,6 +85,9 @@ ui::settings::RunSettings run_settings(
     if (settings.path.name == ui::settings::live_path) {
         throw Error("path: expected a path or a track, got 'live', which other programs fly");
     }
+    if (settings.drawing.renderer == ui::settings::RendererKind::Auto) {
+        settings.drawing.renderer = ui::settings::RendererKind::Raster; // the library draws by the processor
+    }
     return ui::world::with_absolute_paths(settings);
 }
 
