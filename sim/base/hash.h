@@ -15,6 +15,13 @@ constexpr std::uint32_t scrambled(std::uint32_t h) {
     return h ^ (h >> 16U);
 }
 
+/// The same for 64 bits.
+constexpr std::uint64_t scrambled64(std::uint64_t h) {
+    h = (h ^ (h >> 32U)) * 0xd6e8feb86659fd93ULL;
+    h = (h ^ (h >> 29U)) * 0xa0761d6478bd642fULL;
+    return h ^ (h >> 32U);
+}
+
 /// 64-bit running hash (FNV-1a over 8-byte words, a shorter end padded with zeros): fast enough for one picture per
 /// frame. Not cryptographic.
 class Hash {

@@ -67,6 +67,8 @@ const scene::Picture& DrawingLane::draw() {
     return picture_;
 }
 
+void DrawingLane::draw_deep(std::span<std::uint16_t> colours) { renderer_.draw_deep(*plan_, colours); }
+
 void DrawingLane::prepare_truth() { renderer_.prepare_truth(*plan_); }
 
 void DrawingLane::draw_truth(const scene::TruthArrays& to, std::span<const glm::vec2> at_px) {

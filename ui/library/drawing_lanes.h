@@ -14,6 +14,7 @@
 #include <glm/vec2.hpp>
 
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <mutex>
@@ -64,6 +65,9 @@ public:
 
     /// Draws what was planned. Valid until the next picture: 4 bytes a pixel, rows from the top.
     const visuals::scene::Picture& draw();
+
+    /// The same with 16 bits: red, green, blue of each pixel, 65535 = full.
+    void draw_deep(std::span<std::uint16_t> colours);
 
     /// In place of draw() where only truth is wanted.
     void prepare_truth();

@@ -5,6 +5,7 @@
 #include "sim/base/thread_pool.h"
 #include "ui/base/version.h"
 #include "ui/library/boxes.h"
+#include "ui/library/camera_pictures.h"
 #include "ui/library/conversions.h"
 #include "ui/library/drawing_lanes.h"
 #include "ui/library/loaded_world.h"
@@ -16,6 +17,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <deque>
 #include <fmt/format.h>
 #include <functional>
 #include <iostream>
@@ -49,7 +51,30 @@ struct Loaded {
     std::vector<Object> objects;
     std::optional<DrawingLanes> lanes;
     std::mutex frame_mutex; ///< EarthFrame is for one thread at a time.
+
+    /// What draws a checked camera's pictures; null for one that is a pinhole and nothing else. Those of the last
+    /// cameras are kept: they take milliseconds to make.
+    std::shared_ptr<const CameraPictures> pictures_of(const Camera& camera);
+
+private:
+    static constexpr std::size_t most_cameras = 8;
+    std::mutex cameras_mutex_;
+    std::deque<std::pair<Camera, std::shared_ptr<const CameraPictures>>> cameras_;
 };
+
+std::shared_ptr<const CameraPictures> Loaded::pictures_of(const Camera& camera) {
+    if (CameraPictures::is_plain(camera)) { return nullptr; }
+    {
+        const std::scoped_lock lock(cameras_mutex_);
+        const auto known = std::ranges::find(cameras_, camera, [](const auto& entry) { return entry.first; });
+        if (known != cameras_.end()) { return known->second; }
+    }
+    auto made = std::make_shared<const CameraPictures>(camera);
+    const std::scoped_lock lock(cameras_mutex_);
+    cameras_.emplace_back(camera, made);
+    if (cameras_.size() > most_cameras) { cameras_.pop_front(); }
+    return made;
+}
 
 } // namespace ui::library
 
@@ -208,6 +233,11 @@ public:
         return request;
     }
 
+    library::CameraPicture of_camera(std::size_t picture, const Pose& pose, const RenderOptions& options) const {
+        return {pose, states_.of(picture), previous_states_.of(picture), options.noise_seed,
+            options.first_index + picture};
+    }
+
 private:
     glm::ivec2 size_px_;
     int samples_;
@@ -218,18 +248,28 @@ private:
 };
 
 /// The arrays of one picture of a batch.
-scene::TruthArrays truth_of(const FrameArrays& to, std::size_t picture, std::size_t pixels) {
+FrameArrays arrays_of(const FrameArrays& to, std::size_t picture, std::size_t pixels) {
     const auto from = [&](auto* array, std::size_t values) {
         return array == nullptr ? nullptr : array + picture * values * pixels;
     };
-    scene::TruthArrays truth;
-    truth.depth_m = from(to.depth_m, 1);
-    truth.class_id = from(to.class_id, 1);
-    truth.object_id = from(to.object_id, 1);
-    truth.normal = from(to.normal, 3);
-    truth.flow_px = from(to.flow_px, 2);
-    truth.coverage = from(to.coverage, 1);
-    return truth;
+    return {.rgb = from(to.rgb, 3),
+        .rgb16 = from(to.rgb16, 3),
+        .depth_m = from(to.depth_m, 1),
+        .class_id = from(to.class_id, 1),
+        .object_id = from(to.object_id, 1),
+        .normal = from(to.normal, 3),
+        .flow_px = from(to.flow_px, 2),
+        .coverage = from(to.coverage, 1)};
+}
+
+scene::TruthArrays truth_of(const FrameArrays& to) {
+    return {.depth_m = to.depth_m,
+        .class_id = to.class_id,
+        .object_id = to.object_id,
+        .normal = to.normal,
+        .flow_px = to.flow_px,
+        .previous_px = nullptr,
+        .coverage = to.coverage};
 }
 
 bool has_truth(const FrameArrays& to) {
@@ -403,14 +443,21 @@ void World::render(
     const Pictures pictures(camera, poses, options, impl->states, impl->previous_states);
     const std::size_t pixels = static_cast<std::size_t>(camera.width) * static_cast<std::size_t>(camera.height);
     const bool wants_truth = has_truth(to);
+    const std::shared_ptr<const library::CameraPictures> special = impl->loaded->pictures_of(camera);
+    if (special) { std::ranges::for_each(poses, library::CameraPictures::check_motion); }
     const auto draw = [&](std::size_t picture, library::DrawingLane& lane) {
+        const FrameArrays arrays = arrays_of(to, picture, pixels);
+        if (special) {
+            special->draw(lane, pictures.of_camera(picture, poses[picture], options), arrays);
+            return;
+        }
         lane.plan(pictures.request(picture));
         if (to.rgb != nullptr) {
-            write_rgb(lane.draw(), to.rgb + picture * 3 * pixels);
+            write_rgb(lane.draw(), arrays.rgb);
         } else if (wants_truth) {
             lane.prepare_truth();
         }
-        if (wants_truth) { lane.draw_truth(truth_of(to, picture, pixels)); }
+        if (wants_truth) { lane.draw_truth(truth_of(arrays)); }
     };
     if (!impl->loaded->lanes->for_each(poses.size(), threads, options.is_stopped, draw)) {
         throw Interrupted("render: stopped by the caller");
@@ -421,6 +468,7 @@ std::vector<std::vector<Box>> World::boxes(
     const Camera& camera, std::span<const Pose> poses, const RenderOptions& options) const {
     const std::shared_ptr<Impl> impl = impl_;
     library::check_camera(camera);
+    if (camera.distortion != Distortion::None) { throw Error("boxes: expected a camera without distortion"); }
     const int threads = thread_count(options.threads);
     const Pictures pictures(camera, poses, options, impl->states, impl->previous_states);
     std::vector<planning::AxisAlignedBox> bounds;

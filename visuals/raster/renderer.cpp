@@ -99,6 +99,13 @@ void Renderer::draw(const scene::FramePlan& plan) {
     draw_into(plan, {0, 0, size_px_.x, size_px_.y});
 }
 
+void Renderer::draw_deep(const scene::FramePlan& plan, std::span<std::uint16_t> colours) {
+    assert(colours.size() == byte_at(0, size_px_.y) / 4 * 3);
+    deep_ = colours.data();
+    draw(plan);
+    deep_ = nullptr;
+}
+
 void Renderer::draw_inset(const scene::FramePlan& plan, const scene::PixelRect& rect) {
     assert(rect.width > 0 && rect.height > 0 && rect.x >= 0 && rect.y >= 0);
     assert(rect.x + rect.width <= size_px_.x && rect.y + rect.height <= size_px_.y);
@@ -139,6 +146,8 @@ void Renderer::draw_into(const scene::FramePlan& plan, const scene::PixelRect& r
         job.blue_first = is_drawn_to_window_;
         job.rgba = pixels_ + byte_at(rect.x + job.first_px.x, rect.y + job.first_px.y);
         job.row_bytes = std::size_t{4} * static_cast<std::size_t>(size_px_.x);
+        job.row_deep = std::size_t{3} * static_cast<std::size_t>(size_px_.x);
+        if (deep_ != nullptr) { job.deep = deep_ + byte_at(job.first_px.x, job.first_px.y) / 4 * 3; }
         paint_tile(job, lanes_, scratch.buffer);
     });
 }

@@ -57,6 +57,10 @@ public:
     void draw(const scene::FramePlan& plan) override;
     void draw_inset(const scene::FramePlan& plan, const scene::PixelRect& rect) override;
 
+    /// draw() that writes the picture with 16 bits as well: red, green, blue, 65535 = full, rows from the top without
+    /// gaps. More than 8 bits are what colours between corners and means of samples give.
+    void draw_deep(const scene::FramePlan& plan, std::span<std::uint16_t> colours);
+
     /// In place of draw() where only the truth of a plan is wanted.
     void prepare_truth(const scene::FramePlan& plan);
 
@@ -134,6 +138,7 @@ private:
     glm::ivec2 size_px_{0};
     scene::Picture picture_;         ///< any other one between finish_and_read() and the next draw()
     std::uint8_t* pixels_ = nullptr; ///< of the picture at hand: the window's or those of picture_
+    std::uint16_t* deep_ = nullptr;  ///< of draw_deep()
     bool targets_window_ = false;
     bool is_drawn_to_window_ = false;
     int draw_calls_ = 0;

@@ -40,6 +40,9 @@ struct TileJob {
     bool blue_first = false;                    ///< in each pixel; else red
     std::uint8_t* rgba = nullptr;               ///< of its upper left pixel
     std::size_t row_bytes = 0;
+    /// The same with 16 bits, 65535 = full, red, green, blue of its upper left pixel; null = not wanted.
+    std::uint16_t* deep = nullptr;
+    std::size_t row_deep = 0; ///< values from row to row
 
     /// TileBuffer::full of a row that is covered whole.
     std::uint64_t full_row() const { return ~std::uint64_t{0} >> (tile_width - size_px.x); }

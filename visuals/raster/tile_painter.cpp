@@ -149,6 +149,31 @@ HWY_NOINLINE void resolve(const TileJob& job, TileBuffer& buffer) {
     hwy::FlushStream();
 }
 
+/// Full values of sums of sixteen samples and of 16 bits.
+constexpr std::uint32_t full_sum = 255 * 256;
+constexpr std::uint32_t full_deep = 65535;
+
+/// A pixel with 16 bits.
+HWY_INLINE std::uint16_t* deep_pixel(const TileJob& job, int column, int row) {
+    return job.deep + static_cast<std::size_t>(row) * job.row_deep + static_cast<std::size_t>(column) * 3;
+}
+
+/// resolve() with 16 bits: all that the sums hold.
+HWY_NOINLINE void resolve_deep(const TileJob& job, const TileBuffer& buffer) {
+    for (int row = 0; row < job.size_px.y; ++row) {
+        for (int column = 0; column < job.size_px.x; ++column) {
+            const auto pixel = static_cast<std::size_t>(row * tile_width + column);
+            const bool is_full = (buffer.full_rows >> row & 1U) != 0;
+            const auto free = is_full ? 0U : 16U - static_cast<std::uint32_t>(std::popcount(buffer.covered[pixel]));
+            std::uint16_t* const to = deep_pixel(job, column, row);
+            for (std::size_t k = 0; k < 3; ++k) {
+                const std::uint32_t sum = buffer.sums[k][pixel] + free * job.background[k] * 16U;
+                to[k] = static_cast<std::uint16_t>((sum * full_deep + full_sum / 2) / full_sum);
+            }
+        }
+    }
+}
+
 /// Blends what waits at a pixel.
 HWY_INLINE void blend(const TileJob& job, int column, int row, TileBuffer& buffer) {
     const auto pixel = static_cast<std::size_t>(row * tile_width + column);
@@ -161,6 +186,10 @@ HWY_INLINE void blend(const TileJob& job, int column, int row, TileBuffer& buffe
         const std::uint32_t over = colour >> (8 * k) & 0xffU;
         std::uint8_t& under = to[byte_of_colour(job, k)];
         under = static_cast<std::uint8_t>((over * share + under * (4080U - share) + 2040U) / 4080U);
+        if (job.deep != nullptr) {
+            std::uint16_t& deep = deep_pixel(job, column, row)[k];
+            deep = static_cast<std::uint16_t>((over * 257U * share + deep * (4080U - share) + 2040U) / 4080U);
+        }
     }
     buffer.pending[pixel] = 0;
 }
@@ -178,6 +207,11 @@ HWY_INLINE void blend_transparent_pixel(const TileJob& job, const TransparentPix
         const std::uint32_t there = under * std::uint32_t{16};
         const std::uint32_t mixed = transparent.colour[k] * share + there * (whole - share);
         under = static_cast<std::uint8_t>((mixed + 8 * whole) / (16 * whole));
+        if (job.deep != nullptr) {
+            std::uint16_t& deep = deep_pixel(job, column, row)[k];
+            const std::uint32_t colour = (transparent.colour[k] * 257U + 8U) / 16U;
+            deep = static_cast<std::uint16_t>((colour * share + deep * (whole - share) + whole / 2) / whole);
+        }
     }
 }
 
@@ -352,6 +386,7 @@ void PaintTile(const TileJob& job, const SampleLanes& lanes, TileBuffer& buffer)
     }
     if (job.detail_texture != nullptr) { add_detail_texture(job, buffer); }
     resolve(job, buffer);
+    if (job.deep != nullptr) { resolve_deep(job, buffer); }
     blend_transparent(job, buffer);
     paint_overlay(job, lanes, buffer);
 }

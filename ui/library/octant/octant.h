@@ -74,7 +74,7 @@ std::string_view name_of(SurfaceClass surface);
 /// The arrays that a picture can have, to be combined by |.
 enum class Output : unsigned {
     Rgb = 1,      ///< red, green, blue; 8 bits, or 16 where the camera says so
-    Depth = 2,    ///< distance along the optical axis, metres; infinite where the sky is
+    Depth = 2,    ///< distance along the optical axis, metres (Camera::ray()); infinite where the sky is
     ClassId = 4,  ///< SurfaceClass
     ObjectId = 8, ///< 0 = none; n = World::objects()[n - 1]
     Normal = 16,  ///< unit normal of the polygon, world axes, towards the eye; 0, 0, 0 where the sky is
@@ -96,8 +96,28 @@ struct Intrinsics {
     double fy = 0.0;
     double cx = 0.0;
     double cy = 0.0;
+
+    bool operator==(const Intrinsics&) const = default;
 };
 
+/// A picture is made in this order: the lens, the shutter, then exposure, noise and rounding. By default it is that of
+/// a pinhole, at one time, with the colours as drawn. Truth is what the middle of each pixel shows at the middle of its
+/// exposure; noise, exposure and motion blur do not touch it.
+///
+/// Lens: a distorted picture is resampled from pinhole pictures of at least its resolution: one where it sees at most
+/// 60 degrees to each side, else those faces of a cube that it shows, each with triangles of its own. A distortion that
+/// folds inside the picture is refused: OpenCV would show two points in one place.
+///
+/// Shutter: the pose is that of the row in the middle of the picture at the middle of its exposure; row r of h is seen
+/// (r - (h - 1) / 2) row_time_s later. Cameras move by Pose::velocity_mps and turn_rate_degps, aircraft by
+/// State::velocity_mps; the previous picture, for the flow, moves alike. Rows are drawn in bands, each at one time, so
+/// that no row is off by more than half a pixel of motion (at most 128 bands). Motion blur is the mean, in linear
+/// light, of blur_frames pictures evenly spaced in shutter_s.
+///
+/// Light is linear by the transfer function of sRGB. Noise is normally distributed in light, its variance is
+/// s^2 (15/16 L / L_grey + 1/16) for light L: photons and reading; s is such that a pixel at half the full display
+/// value has the standard deviation `noise` there. It depends on RenderOptions::noise_seed, the picture's index and the
+/// pixel.
 struct Camera {
     int width = 128;       ///< pixels, 1 to 8192
     int height = 128;      ///< pixels, 1 to 8192
@@ -107,16 +127,21 @@ struct Camera {
     std::vector<double> coefficients = {}; ///< of the distortion; missing ones are 0
     int samples = 16;                      ///< samples a pixel: 1, 4 or 16
     int bits = 8;                          ///< of each colour: 8 or 16
-    double exposure = 1.0;                 ///< factor of linear light; 1 = as drawn
+    double exposure = 1.0;                 ///< factor of linear light, 0 to 1e6; what is over full is clipped
     double noise = 0.0;                    ///< standard deviation of the noise of a grey pixel, share of full scale
-    double shutter_s = 0.0;                ///< time that the shutter is open; motion blur over `blur_frames` pictures
-    int blur_frames = 1;
-    double row_time_s = 0.0; ///< rolling shutter: the time from one row to the next
+    double shutter_s = 0.0;                ///< time that the shutter is open, 0 to 60
+    int blur_frames = 1;                   ///< pictures in that time, 1 to 256; 1 = sharp
+    double row_time_s = 0.0;               ///< rolling shutter: from one row to the next one below, -1 to 1
+
+    bool operator==(const Camera&) const = default;
 
     Intrinsics matrix() const; ///< `intrinsics`, or those of fov_deg
-    /// Pixels of points in camera axes of OpenCV; nothing for points behind the camera.
+    /// The pixel of a point in camera axes of OpenCV. Nothing where no pixel can show it: behind a camera (a fisheye
+    /// sees there), and beyond the radius at which the distortion folds.
     std::optional<std::pair<double, double>> project(const Vec3& point_m) const;
-    /// The direction, in camera axes of OpenCV with z = 1 (or of unit length beyond 90 degrees), that a pixel sees.
+    /// The direction, in camera axes of OpenCV, that a pixel sees, also outside the picture: with z = 1, or of unit
+    /// length from 89.9 degrees on. Times the pixel's depth it is the point that the pixel shows. Error beyond the
+    /// radius at which the distortion folds.
     Vec3 ray(double column, double row) const;
 };
 
@@ -268,6 +293,7 @@ public:
     void render(const Camera& camera, std::span<const Pose> poses, const FrameArrays& to,
         const RenderOptions& options = {}) const;
     /// Boxes of the objects of each picture, by ascending id: of those that are in it, seen or hidden by others.
+    /// Error for a camera with distortion. With a rolling shutter or blur they are those of the pose itself.
     std::vector<std::vector<Box>> boxes(
         const Camera& camera, std::span<const Pose> poses, const RenderOptions& options = {}) const;
 
