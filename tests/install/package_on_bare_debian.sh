@@ -30,10 +30,14 @@ done
 # The package.
 (cd "$build" && cpack -B "$scratch/package") >"$scratch/cpack.log" 2>&1 || fail "cpack: $(tail -n 5 "$scratch/cpack.log")"
 package=$(echo "$scratch"/package/octant_*.deb)
-bytes=$(stat -c %s "$package")
-echo "$(basename "$package"): $bytes bytes"
-[[ $bytes -le 15000000 ]] || fail "the package takes more than 15 MB"
-lintian --fail-on error --tag-display-limit 0 "$package" || fail "lintian finds errors"
+python_package=$(echo "$scratch"/package/python3-octant_*.deb)
+library_package=$(echo "$scratch"/package/liboctant-dev_*.deb)
+for each in "$package" "$python_package" "$library_package"; do
+  bytes=$(stat -c %s "$each")
+  echo "$(basename "$each"): $bytes bytes"
+  [[ $bytes -le 15000000 ]] || fail "the package takes more than 15 MB"
+  lintian --fail-on error --tag-display-limit 0 "$each" || fail "lintian finds errors"
+done
 
 # A bare system.
 if [[ -n $given ]]; then
@@ -84,6 +88,25 @@ inside octant fly straight --size 64x48 --pictures 0 --record /mnt/flight --quie
 [[ $? -eq 2 && $(wc -l <"$scratch/said.txt") -eq 1 ]] || fail "a flight onto a full disk: $(cat "$scratch/said.txt")"
 umount "$root/mnt"
 echo "read-only recordings and full disks: one line each"
+
+# The Python package: the scripts by which it was designed, and the notebooks.
+cp "$python_package" "$root/root/python3-octant.deb"
+inside apt-get install -y -qq --no-install-recommends /root/python3-octant.deb >>"$scratch/apt.log" 2>&1 ||
+  fail "the Python package is not installed: $(tail -n 5 "$scratch/apt.log")"
+mkdir -p "$root/root/tests/ui" "$root/root/ui"
+cp -r "$(dirname "$0")/../ui/python" "$root/root/tests/ui/python" && cp -r "$(dirname "$0")/../../ui/examples" "$root/root/ui/examples"
+for name in scripts notebooks; do
+  inside python3 /root/tests/ui/python/${name}_test.py 2>"$scratch/python.log" || fail "python: $name: $(tail -n 20 "$scratch/python.log")"
+done
+inside apt-get purge -y -qq python3-octant >>"$scratch/apt.log" 2>&1 || fail "the Python package is not removed"
+rm -r "$root/root/tests" "$root/root/ui"
+echo "python3-octant: scripts and notebooks run"
+
+# What C++ programs need of the library.
+cp "$library_package" "$root/root/liboctant-dev.deb"
+inside apt-get install -y -qq --no-install-recommends /root/liboctant-dev.deb >>"$scratch/apt.log" 2>&1 ||
+  fail "liboctant-dev is not installed: $(tail -n 5 "$scratch/apt.log")"
+inside apt-get purge -y -qq liboctant-dev >>"$scratch/apt.log" 2>&1 || fail "liboctant-dev is not removed"
 
 # The window, on a display of ours.
 mkdir -p "$root/tmp/.X11-unix"
