@@ -1,18 +1,11 @@
 #pragma once
 
 #include <filesystem>
-#include <stdexcept>
+#include <octant/error.h>
 #include <string>
 #include <string_view>
 
 namespace octant {
-
-/// Wrong input from outside (file, option, driver). Caught once in main, which prints the text as one line and ends the
-/// program with exit code 2.
-class Error : public std::runtime_error {
-public:
-    using std::runtime_error::runtime_error;
-};
 
 /// Throws Error "path:line: what". Lines count from 1. `what` is "expected ..., got ...".
 [[noreturn]] void throw_error_at(const std::filesystem::path& path, int line, const std::string& what);

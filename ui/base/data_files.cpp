@@ -7,10 +7,13 @@
 #include <cstddef>
 #include <cstdlib>
 #include <cstring>
+#include <dlfcn.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <link.h>
 #include <map>
 #include <mutex>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -32,6 +35,20 @@ bool looks_like_file(const std::string& name) {
            fs::is_regular_file(name, ignored);
 }
 
+/// A program in PREFIX/bin, or the library in PREFIX/lib or PREFIX/lib/x86_64-linux-gnu.
+constexpr std::size_t most_places = 3;
+
+/// The program, or the shared library where this code is part of that.
+fs::path file_of_this_code() {
+    Dl_info info{};
+    void* found = nullptr;
+    const bool is_known =
+        dladdr1(reinterpret_cast<const void*>(&file_of_this_code), &info, &found, RTLD_DL_LINKMAP) != 0;
+    const std::string_view library = is_known ? static_cast<const link_map*>(found)->l_name : "";
+    std::error_code ignored;
+    return library.empty() ? fs::read_symlink("/proc/self/exe", ignored) : fs::canonical(library, ignored);
+}
+
 [[noreturn]] void throw_unknown_aircraft(const std::string& name) {
     throw Error(fmt::format(
         "aircraft: expected {} or an OBJ file, got '{}'", fmt::join(built_in_models, ", "), printable(name)));
@@ -44,9 +61,11 @@ fs::path data_folder() {
     if (const char* named = std::getenv("OCTANT_DATA"); named != nullptr && *named != '\0') {
         candidates.emplace_back(named);
     }
-    std::error_code ignored;
-    const fs::path program = fs::read_symlink("/proc/self/exe", ignored);
-    candidates.push_back(program.parent_path().parent_path() / "share" / "octant");
+    const fs::path own_folder = file_of_this_code().parent_path();
+    for (fs::path above = own_folder.parent_path(); above != above.parent_path() && candidates.size() < most_places;
+         above = above.parent_path()) {
+        candidates.push_back(above / "share" / "octant");
+    }
     candidates.emplace_back(OCTANT_SOURCE_DIR);
     for (const fs::path& place : candidates) {
         if (holds_data(place)) { return place; }

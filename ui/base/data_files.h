@@ -25,8 +25,9 @@ inline constexpr auto built_in_models = [] {
 /// Built-in paths, of which each known aircraft has its own or another's, in the order of the 1989 paper.
 inline constexpr std::array<std::string_view, 4> built_in_paths{"straight", "jinking", "pop-up", "turn"};
 
-/// Where the program's own models and paths lie: OCTANT_DATA when set, else the installed prefix beside the program,
-/// else the source tree it was built from. Throws Error when none of them has them, naming the places.
+/// Where the program's own models and paths lie: OCTANT_DATA when set, else the installed prefix of the program, or of
+/// the shared library that this is part of, else the source tree it was built from. Throws Error when none of them has
+/// them, naming the places.
 std::filesystem::path data_folder();
 
 /// File of an aircraft: a name of built_in_models or a file. Throws Error for a name that is neither, listing the

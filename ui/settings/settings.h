@@ -39,7 +39,7 @@ constexpr bool is_order_cache_folder(std::string_view value) {
 struct PathSettings {
     /// A built-in path, a path file or a recorded track.
     std::string name = "straight";
-    /// Names or files, at least one. The first aircraft flies the path, the others beside it.
+    /// Names or files, at least one where a path is flown. The first aircraft flies the path, the others beside it.
     std::vector<std::string> aircraft = {"f15"};
     /// Directions of the axes of aircraft files, or "auto": by their formats, else by their shapes.
     std::string axes = "auto";

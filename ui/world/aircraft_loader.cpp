@@ -298,7 +298,8 @@ LoadedAircraft load_aircraft(const AircraftSources& inputs) {
             loaded.far_models.push_back({i, model_of(std::string(kind->simple_type_name)), kind->simple_model_error_m});
         }
     }
-    if (auto cockpit = load_cockpit(inputs.shapes.front())) {
+    auto cockpit = inputs.shapes.empty() ? std::nullopt : load_cockpit(inputs.shapes.front());
+    if (cockpit) {
         loaded.cockpit = static_cast<std::uint32_t>(loaded.models.size());
         loaded.dials = planning::dials_of(cockpit->polygons, sim::aircraft_kind(inputs.shapes.front()).limits);
         add(std::move(*cockpit));

@@ -215,7 +215,8 @@ std::vector<std::string> shapes_of(
     const settings::RunSettings& settings, const std::vector<std::string>& of_recording) {
     std::vector<std::string> shapes;
     for (const std::string& aircraft : settings.path.aircraft) { shapes.push_back(settings::aircraft_shape(aircraft)); }
-    for (std::size_t i = shapes.size() - 1; i < of_recording.size(); ++i) { shapes.push_back(of_recording[i]); }
+    if (shapes.empty()) { return shapes; }
+    for (std::size_t i = shapes.size(); i <= of_recording.size(); ++i) { shapes.push_back(of_recording[i - 1]); }
     return shapes;
 }
 
@@ -364,7 +365,7 @@ World load_world(const settings::RunSettings& settings, RenderDevice device, con
         check_wingmen(world);
         note_limits(inputs.shapes, world);
     }
-    world.leader_kind = sim::find_aircraft_kind(settings::aircraft_shape(settings.path.aircraft.front()));
+    world.leader_kind = inputs.shapes.empty() ? nullptr : sim::find_aircraft_kind(inputs.shapes.front());
     add_notes(world.notes, sun_notes(settings, ground.info.place));
     world.ground = ground.info;
     world.points = fixed_points(settings, world);

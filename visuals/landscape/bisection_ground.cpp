@@ -446,14 +446,13 @@ class BisectionGroundMesher final : public GroundMesher {
 public:
     explicit BisectionGroundMesher(std::shared_ptr<const BisectionGround> ground)
         : ground_(std::move(ground)), mesher_(ground_->tiles()),
-          colours_(ground_->tiles(), ground_->air(), ground_->terrain_shadows()), prefetcher_(ground_->tiles()) {}
+          colours_(ground_->tiles(), ground_->air(), ground_->terrain_shadows()) {}
 
     const Ground& ground() const override { return *ground_; }
 
     void apply_settings(const MeshSettings& settings) override {
         background_task_.wait();
         order_ = settings.is_front_to_back ? terrain::PaintOrder::FrontToBack : terrain::PaintOrder::BackToFront;
-        picture_height_px_ = settings.picture_height_px;
         target_.error_px = settings.ground.error_px.value_or(min_error_px);
         target_.geomorphs = settings.ground.geomorphs;
         detail_ = {settings.ground.near_detail, settings.ground.scenery && !settings.has_texture};
@@ -476,6 +475,9 @@ public:
 
     double earth_radius_m() const override { return earth_radius_m_; }
 
+    /// Meshes depend on no frame before them, but for the pages that are asked for along the eye's way.
+    void reset_detail(const MeshRequest& /*request*/) override { last_eye_m_.reset(); }
+
     /// A second mesh ahead would take the memory of the one that is being drawn.
     void begin_next_mesh(const MeshRequest& request, const IdleThreadRunner& on_idle_thread) override {
         background_task_.wait();
@@ -493,8 +495,10 @@ public:
         set_target(request);
         make(view_of(request));
         const glm::dvec3& eye_m = request.camera.eye_m;
-        const glm::dvec3 way_m = eye_m - last_eye_m_.value_or(eye_m);
-        prefetcher_.prefetch_around(glm::dvec2(eye_m + prefetch_frames * way_m));
+        if (last_eye_m_) {
+            if (!prefetcher_) { prefetcher_.emplace(ground_->tiles()); }
+            prefetcher_->prefetch_around(glm::dvec2(eye_m + prefetch_frames * (eye_m - *last_eye_m_)));
+        }
         last_eye_m_ = eye_m;
         counts = {static_cast<int>(drawn_mesh_.indices.size() / 3), mesh_.counters.fans, 0.0, mesh_.error_px,
             static_cast<int>(drawn_mesh_.detail_triangles), static_cast<int>(drawn_mesh_.scenery_triangles)};
@@ -551,8 +555,8 @@ private:
             const double height_above_ground_m = eye_m.z - ground_->height_at(eye_m.x, eye_m.y).value_or(0.0);
             nature::apply_detail_budget(
                 {unlimited ? std::nullopt : std::optional(triangles / default_triangles),
-                    request.camera.vertical_fov_rad * request.aspect, focal_px(request.camera, picture_height_px_),
-                    std::max(height_above_ground_m, 0.0)},
+                    request.camera.vertical_fov_rad * request.aspect,
+                    focal_px(request.camera, request.picture_height_px), std::max(height_above_ground_m, 0.0)},
                 detail_, near_view_);
         }
         const int kept = adds_detail() ? static_cast<int>(near_view_.max_splits + near_view_.max_scenery_triangles) : 0;
@@ -589,7 +593,7 @@ private:
         return {.eye_m = request.camera.eye_m,
             .frustum_normals = frustum_normals(request.camera, request.aspect),
             .order = order_,
-            .focal_px = focal_px(request.camera, picture_height_px_),
+            .focal_px = focal_px(request.camera, request.picture_height_px),
             .ahead = view_direction(request.camera),
             .corner_cos = corner_cos(request.camera, request.aspect),
             .earth_radius_m = earth_radius_m_};
@@ -607,7 +611,6 @@ private:
     nature::NearDetailView near_view_;
     nature::DetailedGround::Triangles drawn_mesh_; ///< mesh_ with its detail
     terrain::PaintOrder order_ = terrain::PaintOrder::BackToFront;
-    int picture_height_px_ = 0;
     terrain::ErrorTarget target_;
     double earth_radius_m_ = 0.0;
     terrain::GroundMesh mesh_;
@@ -615,7 +618,7 @@ private:
     terrain::MeshView next_mesh_view_; ///< of the mesh that is made ahead
     bool has_mesh_begun_ = false;      ///< a mesh has been begun that nobody has asked for yet
     std::optional<glm::dvec3> last_eye_m_;
-    terrain::GroundPrefetcher prefetcher_;
+    std::optional<terrain::GroundPrefetcher> prefetcher_; ///< has a thread: made where frames follow one another
     BackgroundTask background_task_; ///< declared last, so that it is destroyed first: its work uses the others
 };
 

@@ -40,8 +40,8 @@ double highest_m(const Ground& ground) {
 }
 
 MeshSettings mesh_settings(const scene::Settings& settings, bool has_texture) {
-    return {settings.ground, settings.air, settings.view.size_px.y,
-        settings.surface.hidden_surface == scene::HiddenSurface::DepthBuffer, has_texture};
+    return {settings.ground, settings.air, settings.surface.hidden_surface == scene::HiddenSurface::DepthBuffer,
+        has_texture};
 }
 
 const nature::Backdrop& Ground::backdrop() const {

@@ -21,7 +21,6 @@ class Ground;
 struct MeshSettings {
     scene::GroundSettings ground;
     scene::AirSettings air;
-    int picture_height_px = 720;
     /// Nearest triangles first, for pictures with a depth buffer; else farthest first.
     bool is_front_to_back = false;
     /// A texture colours the ground: neither trees and houses nor roads are on it, which would get its colours.
@@ -37,6 +36,7 @@ struct MeshRequest {
     double aspect = 1.0;
     /// At least 1; ground that is always drawn whole ignores it.
     int triangle_target = 20000;
+    int picture_height_px = 720;
 };
 
 /// What was drawn of the ground in one frame.
@@ -55,7 +55,8 @@ struct GroundCounts {
 /// One view's meshes of a ground, frame after frame: the detail control and the memory that its frame plans refer to.
 /// Each view has its own mesher; the ground is shared and owned by each of its meshers. Calls, in this order:
 ///
-///     loading      reset_detail(request)                     once, before the first frame
+///     loading      reset_detail(request)                     before the first frame, and before one that does not
+///                                                            follow the frame before it
 ///     each frame   triangles(request, counts)                the mesh; advances the detail control by one frame
 ///                  triangles_in(box_test, numbers)           any number of times, about that mesh
 ///                  begin_next_mesh(next_request, runner)     optional: prepares the next triangles() on another thread
@@ -74,7 +75,8 @@ public:
 
     virtual const Ground& ground() const = 0;
 
-    /// Sets the detail so that the first frame meets its target. Loading work.
+    /// Forgets the frames before, and sets the detail so that the next one meets its target. Loading work where a
+    /// detail control averages over frames.
     virtual void reset_detail(const MeshRequest& /*request*/) {}
 
     /// Uses other settings from the next frame on; the state of the detail control stays. The ground must support the

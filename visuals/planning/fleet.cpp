@@ -193,6 +193,13 @@ void Fleet::choose_ranges(PlacedAircraft& aircraft, const glm::dvec3& eye_in_bod
     }
 }
 
+void Fleet::forget_frames() {
+    for (std::size_t i = 0; i < last_.size(); ++i) {
+        if (last_[i].is_refined) { refined_[i]->forget_frames(); }
+        last_[i] = {};
+    }
+}
+
 void Fleet::refine(const FrameView& view) {
     splits_ = 0;
     collapses_ = 0;

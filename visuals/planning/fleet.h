@@ -37,6 +37,9 @@ public:
     /// Refines the progressive meshes of the aircraft that are drawn by one. Follows place().
     void refine(const FrameView& view);
 
+    /// Forgets the frames before: the next one is placed and refined as the first of a new fleet.
+    void forget_frames();
+
     /// Those of Scene::aircraft, then the cockpit where the view is from inside one.
     std::span<const PlacedAircraft> placed() const { return placed_; }
 

@@ -48,6 +48,8 @@ struct PlanRequest {
     std::span<const std::string> overlay_lines = {};
     /// Parts that a host program turns.
     std::span<const ArticulatedPart> articulated_parts = {};
+    /// The size of the picture; nothing = that of the settings.
+    std::optional<glm::ivec2> size_px = std::nullopt;
 };
 
 /// The numbers of things that one frame draws.

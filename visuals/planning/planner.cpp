@@ -38,15 +38,14 @@ public:
 
     /// The overlay of a frame, `transparents` first; valid until the next call. `marks_path`: legs of the first
     /// aircraft's path are named, which must be known.
-    scene::OverlayDraw draw(const scene::OverlayDraw& transparents, const PlanRequest& request, bool marks_path) {
+    scene::OverlayDraw draw(const scene::OverlayDraw& transparents, const PlanRequest& request,
+        const glm::ivec2& size_px, bool marks_path) {
         const scene::Camera& camera = request.camera;
-        const sim::AircraftState& first = request.states.front();
-        const glm::ivec2& size_px = settings_.view.size_px;
         layers_.clear();
         layers_.add(transparents);
-        if (marks_path) { layers_.add(path_marks(camera, first.position_m)); }
+        if (marks_path) { layers_.add(path_marks(camera, size_px, request.states.front().position_m)); }
         if (settings_.view.kind == scene::View::Cockpit) {
-            const overlay::InstrumentReadings readings = readings_of(first);
+            const overlay::InstrumentReadings readings = readings_of(request.states.front());
             overlay::add_instruments(layers_, canvases_, scene_.dials, readings, camera, size_px);
             if (settings_.view.head_up_display) {
                 layers_.add(overlay::draw_head_up_display(canvases_[0], readings, camera, size_px));
@@ -60,13 +59,13 @@ public:
 
 private:
     /// The names of the legs of the first aircraft's path, where the legs begin.
-    scene::OverlayDraw path_marks(const scene::Camera& camera, const glm::dvec3& aircraft_m) {
+    scene::OverlayDraw path_marks(
+        const scene::Camera& camera, const glm::ivec2& size_px, const glm::dvec3& aircraft_m) {
         labels_.clear();
         for (const DrawnPath::Leg& leg : scene_.path->legs) {
             labels_.push_back({scene_.path->points[leg.first_point].position_m - camera.eye_m, leg.name});
         }
-        return overlay::draw_path_annotations(
-            canvases_[0], camera, settings_.view.size_px, aircraft_m - camera.eye_m, labels_);
+        return overlay::draw_path_annotations(canvases_[0], camera, size_px, aircraft_m - camera.eye_m, labels_);
     }
 
     overlay::InstrumentReadings readings_of(const sim::AircraftState& state) const {
@@ -137,27 +136,36 @@ public:
         transparents_.set_daylight(atmosphere_->daylight());
     }
 
-    void settle_detail(const scene::Camera& camera) {
-        if (!std::exchange(is_settled_, true)) { mesher_->reset_detail(ground_request(camera, std::nullopt)); }
+    void settle_detail(const PlanRequest& request) {
+        if (!std::exchange(is_settled_, true)) {
+            mesher_->reset_detail(ground_request(view_of(request), std::nullopt));
+        }
+    }
+
+    void forget_frames() {
+        is_settled_ = false;
+        is_placed_ = false;
+        fleet_.forget_frames();
+        smooth_.forget_frames();
     }
 
     void begin_next_mesh(
         const scene::Camera& camera, std::optional<int> triangle_target, const IdleThreadRunner& on_idle_thread) {
-        mesher_->begin_next_mesh(ground_request(camera, triangle_target), on_idle_thread);
+        mesher_->begin_next_mesh(ground_request(view_of({camera, {}}), triangle_target), on_idle_thread);
     }
 
     void wait() { mesher_->wait(); }
 
     void place_aircraft(const PlanRequest& request) {
         if (std::exchange(is_placed_, true)) { return; }
-        const FrameView view = view_of(request.camera);
+        const FrameView view = view_of(request);
         fleet_.place(view, request, transparents_.effect_bounds());
         fleet_.refine(view);
     }
 
     PlannedFrame plan(const PlanRequest& request) {
-        settle_detail(request.camera);
-        const FrameView view = view_of(request.camera);
+        settle_detail(request);
+        const FrameView view = view_of(request);
         PlanCounts counts;
         place_aircraft(request);
         is_placed_ = false;
@@ -165,7 +173,7 @@ public:
         const GroundFrame ground = make_ground(request, view, counts);
         atmosphere_->write(view, plan_);
         transparents_.make(view, request, fleet_, plan_);
-        plan_.overlay = overlay_.draw(transparents_.draw(), request, transparents_.has_ribbon());
+        plan_.overlay = overlay_.draw(transparents_.draw(), request, view.size_px, transparents_.has_ribbon());
         count(choose_smooth(request.smooth), counts);
         painter_.paint(
             {view, fleet_, smooth_, transparents_, ground, *mesher_}, settings_.surface.hidden_surface, counts);
@@ -173,15 +181,15 @@ public:
     }
 
     void advance_without_drawing(const PlanRequest& request) {
-        settle_detail(request.camera);
+        settle_detail(request);
         place_aircraft(request);
         is_placed_ = false;
         choose_smooth(request.smooth);
     }
 
 private:
-    FrameView view_of(const scene::Camera& camera) const {
-        return frame_view(camera, settings_.view.size_px, mesher_->earth_radius_m());
+    FrameView view_of(const PlanRequest& request) const {
+        return frame_view(request.camera, request.size_px.value_or(settings_.view.size_px), mesher_->earth_radius_m());
     }
 
     /// Empties the lists of the plan and writes what depends on the view and the aircraft alone.
@@ -210,20 +218,20 @@ private:
     }
 
     /// The mesh of the ground gets the requested triangles less those of decorations that lie on it.
-    landscape::MeshRequest ground_request(const scene::Camera& camera, std::optional<int> triangle_target) const {
+    landscape::MeshRequest ground_request(const FrameView& view, std::optional<int> triangle_target) const {
         const int asked = requested_triangles(triangle_target);
-        const FrameView view = view_of(camera);
         int lying = 0;
         for (const auto& decoration : mesher_->decorations()) {
-            lying += decoration->max_patch_triangles(camera.eye_m, view.pixel_rad, asked);
+            lying += decoration->max_patch_triangles(view.camera.eye_m, view.pixel_rad, asked);
         }
-        return {camera, view.aspect, asked >= terrain::unlimited_triangles ? asked : std::max(asked - lying, 1)};
+        return {view.camera, view.aspect, asked >= terrain::unlimited_triangles ? asked : std::max(asked - lying, 1),
+            view.size_px.y};
     }
 
     /// Meshes the ground, lays decorations on it within the rest of the requested triangles, and casts shadows.
     GroundFrame make_ground(const PlanRequest& request, const FrameView& view, PlanCounts& counts) {
         const scene::TriangleDraw triangles =
-            mesher_->triangles(ground_request(request.camera, request.triangle_target), counts.ground);
+            mesher_->triangles(ground_request(view, request.triangle_target), counts.ground);
         const bool is_front_to_back = settings_.surface.hidden_surface == scene::HiddenSurface::DepthBuffer;
         pieces_.begin(
             {view, *mesher_, triangles, is_front_to_back, plan_.ground_texture.has_value()}, plan_.shadow_vertices);
@@ -304,7 +312,7 @@ void Planner::apply_settings() { impl_ = Impl::under_other_settings(std::move(im
 
 void Planner::set_sun() { impl_->set_sun(); }
 
-void Planner::settle_detail(const scene::Camera& camera) { impl_->settle_detail(camera); }
+void Planner::settle_detail(const scene::Camera& camera) { impl_->settle_detail({camera, {}}); }
 
 void Planner::begin_next_mesh(
     const scene::Camera& camera, std::optional<int> triangle_target, const IdleThreadRunner& on_idle_thread) {
@@ -316,6 +324,8 @@ void Planner::wait() { impl_->wait(); }
 void Planner::place_aircraft(const PlanRequest& request) { impl_->place_aircraft(request); }
 
 PlannedFrame Planner::plan(const PlanRequest& request) { return impl_->plan(request); }
+
+void Planner::forget_frames() { impl_->forget_frames(); }
 
 void Planner::advance_without_drawing(const PlanRequest& request) { impl_->advance_without_drawing(request); }
 

@@ -60,6 +60,11 @@ public:
     /// The plan of the next frame, and its counts. Allocates nothing after the first frames.
     PlannedFrame plan(const PlanRequest& request);
 
+    /// Forgets the frames before: the next plan() depends on its request alone, as that of a new planner. For pictures
+    /// that do not follow one another. Keeps all memory; takes microseconds, but for meshes that are refined in each
+    /// frame, and for ground whose detail control averages over frames: these are made anew by the next plan().
+    void forget_frames();
+
     /// Updates what the next plan() depends on, without a plan: levels of detail, far models, refined meshes and smooth
     /// polygons. The ground is left out: its detail depends on earlier frames only where earlier counts control it.
     void advance_without_drawing(const PlanRequest& request);

@@ -59,6 +59,15 @@ refine::RefinedFrame RefinedAircraft::update(const glm::dmat4& body_to_eye_world
     return frame;
 }
 
+void RefinedAircraft::forget_frames() {
+    refiner_.restart();
+    selector_.forget_choices();
+    choosing_ = false;
+    all_flat_ = false;
+    front_changed_ = true;
+    drawn_changed_ = true;
+}
+
 scene::ModelVertex RefinedAircraft::drawn(std::uint32_t slot) const {
     const refine::ProgressiveMesh& mesh = refiner_.front().mesh();
     const refine::RefinedVertex& vertex = refiner_.front().vertices()[slot];

@@ -32,6 +32,9 @@ public:
     /// mesh in the last frame; the mesh is then refined fully, without geomorphs.
     refine::RefinedFrame update(const glm::dmat4& body_to_eye_world, const FrameView& view, bool first);
 
+    /// Forgets all frames: the next update(), whose `first` must be true, does not depend on them.
+    void forget_frames();
+
     int triangles() const { return static_cast<int>(refiner_.front().face_count()); }
 
     /// Chooses which triangles of the last update() are smooth: exactly `smooth`, from 0 to triangles(). Eye and light

@@ -55,6 +55,13 @@ public:
         const SmoothTarget& smooth_target, const glm::dvec3& to_sun, const glm::vec2& light,
         std::vector<std::uint32_t>& smooth);
 
+    /// Forgets the choices of earlier frames for polygons; those for refined meshes are theirs.
+    void forget_frames() {
+        for (Selectors& selectors : selectors_) {
+            for (shading::ShadingSelector& selector : selectors) { selector.forget_choices(); }
+        }
+    }
+
 private:
     /// Of one aircraft: for each level, for its polygons, and for those of its far model; empty where all polygons are
     /// smooth or all are flat.

@@ -167,6 +167,17 @@ void ViewRefiner::refine_fully(const RefineView& view) {
     options_ = kept;
 }
 
+void ViewRefiner::restart() {
+    refiner_.restart();
+    moves_.clear();
+    has_view_ = false;
+    settled_ = false;
+    waiting_ = false;
+    frame_ = 0;
+    split_frames_.clear();
+    collapsed_.clear();
+}
+
 /// Fills splits_ with the nodes to split, and collapses_ with the nodes whose children may be collapsed.
 void ViewRefiner::collect_candidates() {
     splits_.clear();

@@ -45,6 +45,12 @@ public:
     /// have moved.
     std::size_t move(SelectiveRefiner& refiner, const RefineView& view);
 
+    /// Ends the motion of all vertices.
+    void clear() {
+        moves_.clear();
+        places_.clear();
+    }
+
     /// Calls use(slot, target) for each vertex in motion.
     template <class Use>
     void each(const Use& use) const {
@@ -109,6 +115,9 @@ public:
     /// Makes the mesh fit a view at once, without geomorphs and with any number of operations: for the first picture
     /// that shows it.
     void refine_fully(const RefineView& view);
+
+    /// Returns to the base mesh and forgets all frames, as in a new refiner. Memory is kept.
+    void restart();
 
     const SelectiveRefiner& front() const { return refiner_; }
 

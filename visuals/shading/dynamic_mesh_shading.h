@@ -43,6 +43,13 @@ public:
     /// One flag for each slot: 1 = smooth (Gouraud), 0 = flat or empty.
     std::span<const std::uint8_t> smooth() const { return smooth_; }
 
+    /// Forgets all choices, as a new selector.
+    void forget_choices() {
+        has_choice_ = false;
+        labels_.clear();
+        smooth_.clear();
+    }
+
 private:
     void light_points(const DynamicMesh& mesh);
     void keep_triangle_choices(const DynamicMesh& mesh);

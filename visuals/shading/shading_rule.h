@@ -165,6 +165,12 @@ public:
     /// The last choice, one flag for each polygon; all are flat before the first choice.
     std::span<const std::uint8_t> smooth() const { return smooth_; }
 
+    /// Forgets all choices, as a new selector.
+    void forget_choices() {
+        has_choice_ = false;
+        std::ranges::fill(smooth_, std::uint8_t{0});
+    }
+
 private:
     void light_points(const glm::vec3& eye_m, const ShadingLight& light);
     std::uint32_t by_error(std::size_t polygon, const glm::vec3& eye_m, const ShadingLight& light) const;

@@ -1,0 +1,434 @@
+#include "sim/base/earth_frame.h"
+#include "sim/base/error.h"
+#include "sim/base/random_generator.h"
+#include "sim/base/thread_pool.h"
+#include "ui/base/version.h"
+#include "ui/library/conversions.h"
+#include "ui/library/drawing_lanes.h"
+#include "ui/library/loaded_world.h"
+#include "ui/settings/setting_rows.h"
+#include "ui/world/scene_ground.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <fmt/format.h>
+#include <functional>
+#include <iostream>
+#include <limits>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <octant/octant.h>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+namespace octant {
+
+namespace library = ui::library;
+namespace planning = visuals::planning;
+namespace scene = visuals::scene;
+
+std::string version() { return ui::base::program_version(); }
+
+namespace ui::library {
+
+/// What all copies of a world share.
+struct Loaded {
+    ui::settings::RunSettings settings;
+    ui::world::World world;
+    std::vector<Object> objects;
+    std::optional<DrawingLanes> lanes;
+    std::mutex frame_mutex; ///< EarthFrame is for one thread at a time.
+};
+
+} // namespace ui::library
+
+namespace {
+
+using library::Loaded;
+using States = std::vector<sim::AircraftState>;
+
+std::vector<Object> objects_of(const planning::Scene& scene, const ui::settings::RunSettings& settings) {
+    std::vector<Object> objects;
+    std::map<std::string, int> count;
+    for (std::size_t i = 0; i < scene.aircraft.size(); ++i) {
+        const planning::AircraftModel& model = scene.model_of(i);
+        Object object;
+        object.kind = i < settings.path.aircraft.size() ? ui::settings::aircraft_shape(settings.path.aircraft[i])
+                                                        : model.polygons.name;
+        const int number = ++count[object.kind];
+        object.name = number == 1 ? object.kind : fmt::format("{} {}", object.kind, number);
+        object.size_m = library::vec3_from(model.hull.max_m - model.hull.min_m);
+        object.box_centre_m = library::vec3_from(0.5 * (model.hull.max_m + model.hull.min_m));
+        objects.push_back(std::move(object));
+    }
+    return objects;
+}
+
+States first_states(const ui::world::World& world) {
+    States states(world.scene.aircraft.size());
+    if (states.empty()) { return states; }
+    const sim::AircraftState& leader = world.flight.trajectory.samples().front();
+    ui::world::formation_states(
+        world.flight, ui::world::formation_of(world.scene, world.flight), leader, leader.time_s, states);
+    return states;
+}
+
+void tell(const std::function<void(std::string_view)>& on_note, std::string_view note) {
+    if (on_note) {
+        on_note(note);
+    } else {
+        std::clog << "octant: " << note << '\n';
+    }
+}
+
+/// The settings of a run, with those of views and frames as they are by default.
+ui::settings::RunSettings world_settings(ui::settings::RunSettings settings) {
+    const bool has_ribbon = settings.view.path_ribbon;
+    const double start_s = settings.time.start_s;
+    settings.view = {};
+    settings.view.path_ribbon = has_ribbon;
+    settings.time = {};
+    settings.time.start_s = start_s;
+    settings.drawing = {};
+    settings.drawing.renderer = ui::settings::RendererKind::Raster;
+    settings.adapt = {};
+    return settings;
+}
+
+std::shared_ptr<Loaded> load(const ui::settings::RunSettings& settings, const Loaded* shared,
+    const std::function<void(std::string_view)>& on_note) {
+    auto loaded = std::make_shared<Loaded>();
+    loaded->settings = world_settings(settings);
+    loaded->world = ui::world::load_world(
+        loaded->settings, ui::world::RenderDevice::Cpu, shared == nullptr ? nullptr : &shared->world);
+    loaded->settings = ui::world::with_sun_at_time(loaded->settings, loaded->world.ground.place);
+    for (const std::string& note : loaded->world.notes) { tell(on_note, note); }
+    loaded->objects = objects_of(loaded->world.scene, loaded->settings);
+    loaded->lanes.emplace(loaded->world.scene, loaded->settings);
+    return loaded;
+}
+
+void check_count(std::size_t got, std::size_t aircraft, std::size_t pictures) {
+    if (got == aircraft || got == aircraft * pictures) { return; }
+    throw Error(aircraft == 0 ? fmt::format("states: expected none, as there are no aircraft, got {}", got)
+                              : fmt::format("states: expected {}, one for each aircraft, or {} for {} pictures, got {}",
+                                    aircraft, aircraft * pictures, pictures, got));
+}
+
+} // namespace
+
+struct [[gnu::visibility("hidden")]] World::Impl {
+    std::shared_ptr<Loaded> loaded;
+    States states;
+    States previous_states;
+    std::vector<State> public_states;
+
+    static std::shared_ptr<Impl> of(std::shared_ptr<Loaded> loaded) {
+        auto impl = std::make_shared<Impl>();
+        impl->loaded = std::move(loaded);
+        impl->set_states(first_states(impl->loaded->world));
+        return impl;
+    }
+
+    void set_states(States wanted) {
+        previous_states = std::exchange(states, std::move(wanted));
+        public_states.clear();
+        for (const sim::AircraftState& state : states) { public_states.push_back(library::state_from(state)); }
+    }
+
+    const planning::Scene& scene() const { return loaded->world.scene; }
+};
+
+namespace {
+
+/// The states of each picture of a call, checked.
+class PictureStates {
+public:
+    /// `given`: for all pictures, for each, or none: `own`, which must outlive it.
+    PictureStates(std::span<const State> given, const States& own, std::size_t pictures) : own_(own) {
+        if (given.empty()) { return; }
+        check_count(given.size(), own.size(), pictures);
+        for (const State& state : given) { made_.push_back(library::aircraft_state(state)); }
+    }
+
+    std::span<const sim::AircraftState> of(std::size_t picture) const {
+        if (made_.empty()) { return own_; }
+        return made_.size() == own_.size() ? std::span(made_)
+                                           : std::span(made_).subspan(picture * own_.size(), own_.size());
+    }
+
+private:
+    const States& own_;
+    States made_;
+};
+
+std::vector<scene::Camera> cameras_of(const Camera& camera, std::span<const Pose> poses) {
+    std::vector<scene::Camera> cameras;
+    cameras.reserve(poses.size());
+    for (const Pose& pose : poses) { cameras.push_back(library::pinhole_camera(camera, pose)); }
+    return cameras;
+}
+
+int thread_count(int wanted) {
+    constexpr int most = 1024;
+    if (wanted < 0 || wanted > most) { throw Error(fmt::format("threads: expected 0 to {}, got {}", most, wanted)); }
+    return wanted == 0 ? core_count() : wanted;
+}
+
+void write_rgb(const scene::Picture& picture, std::uint8_t* rgb) {
+    const std::uint8_t* rgba = picture.rgba.data();
+    const std::size_t pixels = picture.rgba.size() / 4;
+    for (std::size_t i = 0; i < pixels; ++i) {
+        rgb[3 * i] = rgba[4 * i];
+        rgb[3 * i + 1] = rgba[4 * i + 1];
+        rgb[3 * i + 2] = rgba[4 * i + 2];
+    }
+}
+
+} // namespace
+
+World::World(const WorldSettings& settings)
+    : impl_(Impl::of(load(library::run_settings(settings), nullptr, settings.on_note))) {}
+
+World::World(const WorldSettings& settings, const World& shared)
+    : impl_(Impl::of(load(library::run_settings(settings), shared.impl_->loaded.get(), settings.on_note))) {}
+
+World::World(std::shared_ptr<Impl> impl, std::nullptr_t) : impl_(std::move(impl)) {}
+
+World::World(const World&) = default;
+
+World::World(World&& other) noexcept : impl_(other.impl_) {} // NOLINT: a moved-from world stays as it was
+
+World& World::operator=(const World&) = default;
+
+World& World::operator=(World&& other) noexcept { // NOLINT: a moved-from world stays as it was
+    impl_ = other.impl_;
+    return *this;
+}
+
+World::~World() = default;
+
+double World::height_m(double x_m, double y_m) const {
+    if (!std::isfinite(x_m) || !std::isfinite(y_m)) { return std::numeric_limits<double>::quiet_NaN(); }
+    return impl_->scene().ground->height_at(x_m, y_m).value_or(std::numeric_limits<double>::quiet_NaN());
+}
+
+std::pair<double, double> World::half_extent_m() const {
+    const glm::dvec2 half_m = impl_->scene().ground->half_extent_m();
+    return {half_m.x, half_m.y};
+}
+
+std::vector<Vec3> World::random_positions(
+    std::size_t count, double min_above_m, double max_above_m, std::uint64_t seed) const {
+    if (!std::isfinite(min_above_m) || !std::isfinite(max_above_m) || min_above_m > max_above_m) {
+        throw Error(fmt::format("random_positions: expected a least and a greatest height above the ground, got {} "
+                                "and {}",
+            min_above_m, max_above_m));
+    }
+    constexpr double inner_share = 0.8;
+    const auto [east_m, north_m] = half_extent_m();
+    RandomGenerator random(seed * 0x9e3779b97f4a7c15ULL + 0xd1b54a32d192ed03ULL);
+    random.next(); // neighbouring seeds begin near one another
+    std::vector<Vec3> positions;
+    positions.reserve(count);
+    for (std::size_t i = 0; i < count; ++i) {
+        Vec3 at;
+        at.x = random.between(-inner_share * east_m, inner_share * east_m);
+        at.y = random.between(-inner_share * north_m, inner_share * north_m);
+        const double ground_m = height_m(at.x, at.y);
+        at.z = (std::isnan(ground_m) ? 0.0 : ground_m) + random.between(min_above_m, max_above_m);
+        positions.push_back(at);
+    }
+    return positions;
+}
+
+namespace {
+
+const EarthFrame& frame_of(const Loaded& loaded, std::string_view what) {
+    if (!loaded.world.ground.frame) {
+        throw Error(fmt::format("{}: expected a map that lies on the earth, got {}", what, loaded.world.ground.name));
+    }
+    return *loaded.world.ground.frame;
+}
+
+} // namespace
+
+Vec3 World::local(double latitude_deg, double longitude_deg, double height_m) const {
+    const EarthFrame& frame = frame_of(*impl_->loaded, "local");
+    if (!(std::abs(latitude_deg) <= 90.0) || !std::isfinite(longitude_deg) || !std::isfinite(height_m)) {
+        throw Error(
+            fmt::format("local: expected a latitude of -90 to 90 degrees, a longitude and a height, got {}, {}, {}",
+                latitude_deg, longitude_deg, height_m));
+    }
+    const std::scoped_lock lock(impl_->loaded->frame_mutex);
+    const glm::dvec2 at_m = frame.local_from_geo({latitude_deg, longitude_deg});
+    return {at_m.x, at_m.y, height_m};
+}
+
+Vec3 World::geodetic(const Vec3& position_m) const {
+    const EarthFrame& frame = frame_of(*impl_->loaded, "geodetic");
+    const glm::dvec3 at_m = library::checked_place("geodetic: position_m", position_m);
+    const std::scoped_lock lock(impl_->loaded->frame_mutex);
+    const GeoPosition place = frame.geo_from_local(glm::dvec2(at_m));
+    return {place.latitude_deg, place.longitude_deg, at_m.z};
+}
+
+const std::vector<Object>& World::objects() const { return impl_->loaded->objects; }
+
+void World::set_states(std::span<const State> states) {
+    if (states.size() > objects().size()) {
+        throw Error(
+            fmt::format("states: expected at most {}, one for each aircraft, got {}", objects().size(), states.size()));
+    }
+    States wanted;
+    for (const State& state : states) { wanted.push_back(library::aircraft_state(state)); }
+    while (wanted.size() < objects().size()) {
+        wanted.emplace_back();
+        wanted.back().is_present = false;
+    }
+    auto changed = std::make_shared<Impl>(*impl_);
+    changed->set_states(std::move(wanted));
+    impl_ = std::move(changed);
+}
+
+std::span<const State> World::states() const { return impl_->public_states; }
+
+Frames World::render(
+    const Camera& camera, std::span<const Pose> poses, Output outputs, const RenderOptions& options) const {
+    library::check_camera(camera);
+    constexpr auto all = 2U * static_cast<unsigned>(Output::Coverage) - 1U;
+    if (outputs == Output{} || (static_cast<unsigned>(outputs) & ~all) != 0) {
+        throw Error(fmt::format("outputs: expected some of those of Output, got {}", static_cast<unsigned>(outputs)));
+    }
+    Frames frames;
+    frames.count = poses.size();
+    frames.width = camera.width;
+    frames.height = camera.height;
+    const std::size_t pixels =
+        poses.size() * static_cast<std::size_t>(camera.width) * static_cast<std::size_t>(camera.height);
+    FrameArrays to;
+    const auto make = [&](Output one, auto& array, std::size_t values, auto*& at) {
+        if (!has(outputs, one)) { return; }
+        array.resize(values * pixels);
+        at = array.data();
+    };
+    if (camera.bits == 16) {
+        make(Output::Rgb, frames.rgb16, 3, to.rgb16);
+    } else {
+        make(Output::Rgb, frames.rgb, 3, to.rgb);
+    }
+    make(Output::Depth, frames.depth_m, 1, to.depth_m);
+    make(Output::ClassId, frames.class_id, 1, to.class_id);
+    make(Output::ObjectId, frames.object_id, 1, to.object_id);
+    make(Output::Normal, frames.normal, 3, to.normal);
+    make(Output::Flow, frames.flow_px, 2, to.flow_px);
+    make(Output::Coverage, frames.coverage, 1, to.coverage);
+    render(camera, poses, to, options);
+    return frames;
+}
+
+void World::render(
+    const Camera& camera, std::span<const Pose> poses, const FrameArrays& to, const RenderOptions& options) const {
+    const std::shared_ptr<Impl> impl = impl_; // the world may be closed while it draws
+    library::check_camera(camera);
+    const int threads = thread_count(options.threads);
+    const std::vector<scene::Camera> cameras = cameras_of(camera, poses);
+    const PictureStates states(options.states, impl->states, poses.size());
+    const glm::ivec2 size_px(camera.width, camera.height);
+    const std::size_t values = 3 * static_cast<std::size_t>(camera.width) * static_cast<std::size_t>(camera.height);
+    const auto draw = [&](std::size_t picture, library::DrawingLane& lane) {
+        if (to.rgb == nullptr) { return; }
+        write_rgb(lane.draw(cameras[picture], size_px, camera.samples, states.of(picture)), to.rgb + picture * values);
+    };
+    if (!impl->loaded->lanes->for_each(poses.size(), threads, options.is_stopped, draw)) {
+        throw Interrupted("render: stopped by the caller");
+    }
+}
+
+struct [[gnu::visibility("hidden")]] WorldAccess{
+    static const Loaded & loaded(const World& world){return *world.impl_->loaded;
+} // namespace octant
+
+static World make(std::shared_ptr<Loaded> loaded) { return {World::Impl::of(std::move(loaded)), nullptr}; }
+}
+;
+
+} // namespace octant
+
+namespace octant::ui::library {
+
+const world::World& loaded_world(const World& world) { return WorldAccess::loaded(world).world; }
+
+const settings::RunSettings& settings_of(const World& world) { return WorldAccess::loaded(world).settings; }
+
+World make_world(
+    const settings::RunSettings& settings, const World* shared, const std::function<void(std::string_view)>& on_note) {
+    return WorldAccess::make(load(settings, shared == nullptr ? nullptr : &WorldAccess::loaded(*shared), on_note));
+}
+
+namespace {
+
+/// Whether a setting is about views, pictures or frames, which a world has not.
+bool is_of_pictures(const settings::SettingInfo& info) {
+    using enum settings::SettingGroup;
+    return info.name != "path-ribbon" && info.name != "start" && (info.group == View || info.group == Time);
+}
+
+void check_world_setting(settings::RunSettings& settings, std::string_view name) {
+    settings::visit_settings(settings, [&](const settings::SettingInfo& info, const auto&) {
+        if (info.name == name && is_of_pictures(info)) {
+            throw Error(fmt::format("{}: expected a setting of a world, got one of views or frames", name));
+        }
+    });
+}
+
+/// The words of the settings by name, in the order of the names' first places.
+std::vector<std::pair<std::string, std::vector<std::string>>> words_by_name(const WorldSettings& settings) {
+    std::vector<std::pair<std::string, std::vector<std::string>>> words;
+    const auto words_of = [&](const std::string& name) {
+        return std::ranges::find(words, name, [](const auto& entry) { return entry.first; });
+    };
+    const auto add = [&](const std::string& name, std::vector<std::string> values) {
+        if (!values.empty()) { words.emplace_back(name, std::move(values)); }
+    };
+    if (settings.terrain != WorldSettings{}.terrain) { add("terrain", {settings.terrain}); }
+    add("aircraft", settings.aircraft);
+    if (settings.sun_elevation_deg) { add("sun-elevation", {settings::text_of(*settings.sun_elevation_deg)}); }
+    if (settings.triangles) { add("triangles", {settings::text_of(*settings.triangles)}); }
+    const std::size_t members = words.size();
+    for (const auto& [name, value] : settings.settings) {
+        const auto known = words_of(name);
+        if (known == words.end()) {
+            words.push_back({name, {value}});
+        } else if (static_cast<std::size_t>(known - words.begin()) < members) {
+            throw Error(fmt::format("{}: expected it once, got it among the settings, too", name));
+        } else {
+            known->second.push_back(value);
+        }
+    }
+    return words;
+}
+
+} // namespace
+
+settings::RunSettings run_settings(const WorldSettings& settings) {
+    settings::RunSettings run;
+    run.path.name = settings::live_path;
+    run.path.aircraft.clear();
+    for (const auto& [name, words] : words_by_name(settings)) {
+        check_world_setting(run, name);
+        const std::string note = settings::set_by_name(run, name, words);
+        if (!note.empty()) { tell(settings.on_note, note); }
+    }
+    return run;
+}
+
+} // namespace octant::ui::library
