@@ -161,19 +161,33 @@ void check_camera(const Camera& camera) {
     }
 }
 
-scene::Camera pinhole_camera(const Camera& camera, const Pose& pose) {
-    scene::Camera made;
-    made.eye_m = checked_place("pose: eye_m", pose.eye_m);
-    made.view_to_world = checked_attitude("pose: attitude", pose.attitude) * scene::body_from_view();
+void set_lens(const Camera& camera, scene::Camera& made) {
     if (!camera.intrinsics) {
         made.vertical_fov_rad = rad_from_deg(camera.fov_deg);
-        return made;
+        return;
     }
     const Intrinsics& matrix = *camera.intrinsics;
     made.vertical_fov_rad = 2.0 * std::atan(camera.height / (2.0 * matrix.fy));
     made.pixel_aspect = matrix.fy / matrix.fx;
     made.middle = {
         (0.5 * (camera.width - 1) - matrix.cx) / matrix.fx, (matrix.cy - 0.5 * (camera.height - 1)) / matrix.fy};
+}
+
+scene::Camera pinhole_camera(const Camera& camera, const Pose& pose) {
+    scene::Camera made;
+    set_lens(camera, made);
+    made.eye_m = checked_place("pose: eye_m", pose.eye_m);
+    made.view_to_world = checked_attitude("pose: attitude", pose.attitude) * scene::body_from_view();
+    return made;
+}
+
+std::optional<scene::Camera> previous_camera(const Camera& camera, const Pose& pose) {
+    if (!pose.previous_eye_m && !pose.previous_attitude) { return std::nullopt; }
+    scene::Camera made;
+    set_lens(camera, made);
+    made.eye_m = checked_place("pose: previous_eye_m", pose.previous_eye_m.value_or(pose.eye_m));
+    made.view_to_world = checked_attitude("pose: previous_attitude", pose.previous_attitude.value_or(pose.attitude)) *
+                         scene::body_from_view();
     return made;
 }
 

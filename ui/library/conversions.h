@@ -7,6 +7,7 @@
 #include <glm/vec3.hpp>
 
 #include <octant/octant.h>
+#include <optional>
 #include <string_view>
 
 namespace octant::ui::library {
@@ -28,8 +29,14 @@ glm::dquat checked_attitude(std::string_view what, const Quaternion& value);
 
 void check_camera(const Camera& camera);
 
+/// Sets the lens of `made` to that of a checked camera without distortion.
+void set_lens(const Camera& camera, visuals::scene::Camera& made);
+
 /// The lens and the place of a checked camera without distortion.
 visuals::scene::Camera pinhole_camera(const Camera& camera, const Pose& pose);
+
+/// The same at the previous pose; nothing where the pose names none.
+std::optional<visuals::scene::Camera> previous_camera(const Camera& camera, const Pose& pose);
 
 sim::AircraftState aircraft_state(const State& state);
 

@@ -1,6 +1,7 @@
 #include "ui/library/drawing_lanes.h"
 
 #include "sim/base/thread_pool.h"
+#include "visuals/landscape/ground.h"
 
 #include <algorithm>
 #include <atomic>
@@ -10,6 +11,8 @@
 
 namespace octant::ui::library {
 
+namespace landscape = visuals::landscape;
+namespace planning = visuals::planning;
 namespace scene = visuals::scene;
 
 namespace {
@@ -19,24 +22,55 @@ constexpr int most_samples = 16;
 
 } // namespace
 
-DrawingLane::DrawingLane(const visuals::planning::Scene& scene, const scene::Settings& settings)
-    : planner_(scene, settings), renderer_(std::make_shared<ThreadPool>(1), first_size_px, most_samples) {
-    std::vector<scene::ModelBuffers> buffers;
-    for (const auto& model : scene.models) { buffers.push_back(model->buffers); }
-    renderer_.load_models(buffers);
-    if (scene.ground_texture) { renderer_.load_ground_texture(*scene.ground_texture); }
+DrawnScenes drawn_scenes(const planning::Scene& scene, const scene::Settings& settings) {
+    DrawnScenes scenes{scene, settings, scene, settings};
+    scenes.alone.ground = landscape::make_polygon_ground({}, settings.air);
+    scenes.alone.ground_texture = nullptr;
+    scenes.alone.path = nullptr;
+    scenes.alone_settings.air.sky = false;
+    scenes.alone_settings.air.clouds = 0.0;
+    scenes.alone_settings.surface.shadows = false;
+    scenes.alone_settings.surface.effects = false;
+    scenes.alone_settings.view.path_ribbon = false;
+    return scenes;
 }
 
-const scene::Picture& DrawingLane::draw(
-    const scene::Camera& camera, const glm::ivec2& size_px, int samples, std::span<const sim::AircraftState> states) {
-    planner_.forget_frames();
-    visuals::planning::PlanRequest request{camera, states};
-    request.size_px = size_px;
-    const visuals::planning::PlannedFrame frame = planner_.plan(request);
-    renderer_.resize(size_px, samples);
-    renderer_.draw(frame.plan);
+DrawingLane::DrawingLane(const DrawnScenes& scenes)
+    : scenes_(scenes), planner_(scenes.whole, scenes.whole_settings),
+      renderer_(std::make_shared<ThreadPool>(1), first_size_px, most_samples) {
+    std::vector<scene::ModelBuffers> buffers;
+    for (const auto& model : scenes.whole.models) { buffers.push_back(model->buffers); }
+    renderer_.load_models(buffers);
+    if (scenes.whole.ground_texture) { renderer_.load_ground_texture(*scenes.whole.ground_texture); }
+}
+
+const scene::FramePlan& DrawingLane::plan_by(planning::Planner& planner, const PictureRequest& request) {
+    planner.forget_frames();
+    planning::PlanRequest wanted{request.camera, request.states};
+    wanted.size_px = request.size_px;
+    wanted.previous = request.previous;
+    plan_ = &planner.plan(wanted).plan;
+    renderer_.resize(request.size_px, request.samples);
+    return *plan_;
+}
+
+const scene::FramePlan& DrawingLane::plan(const PictureRequest& request) { return plan_by(planner_, request); }
+
+const scene::FramePlan& DrawingLane::plan_alone(const PictureRequest& request) {
+    if (!alone_planner_) { alone_planner_.emplace(scenes_.alone, scenes_.alone_settings); }
+    return plan_by(*alone_planner_, request);
+}
+
+const scene::Picture& DrawingLane::draw() {
+    renderer_.draw(*plan_);
     renderer_.finish_and_read(picture_);
     return picture_;
+}
+
+void DrawingLane::prepare_truth() { renderer_.prepare_truth(*plan_); }
+
+void DrawingLane::draw_truth(const scene::TruthArrays& to, std::span<const glm::vec2> at_px) {
+    renderer_.draw_truth(*plan_, to, at_px);
 }
 
 std::unique_ptr<DrawingLane> DrawingLanes::take() {
@@ -48,7 +82,7 @@ std::unique_ptr<DrawingLane> DrawingLanes::take() {
             return lane;
         }
     }
-    return std::make_unique<DrawingLane>(scene_, settings_);
+    return std::make_unique<DrawingLane>(scenes_);
 }
 
 void DrawingLanes::give_back(std::unique_ptr<DrawingLane> lane) {

@@ -1,12 +1,15 @@
 #pragma once
 
 #include "sim/aircraft_state.h"
+#include "visuals/planning/frame_view.h"
 #include "visuals/planning/planner.h"
 #include "visuals/planning/scene.h"
 #include "visuals/raster/renderer.h"
 #include "visuals/scene/camera.h"
+#include "visuals/scene/frame_plan.h"
 #include "visuals/scene/picture.h"
 #include "visuals/scene/settings.h"
+#include "visuals/scene/truth.h"
 
 #include <glm/vec2.hpp>
 
@@ -14,39 +17,78 @@
 #include <functional>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <span>
 #include <vector>
 
 namespace octant::ui::library {
 
+/// What lanes draw: all of a world, and its aircraft alone, without ground, sky and shadows.
+struct DrawnScenes {
+    visuals::planning::Scene whole;
+    visuals::scene::Settings whole_settings;
+    visuals::planning::Scene alone;
+    visuals::scene::Settings alone_settings;
+};
+
+DrawnScenes drawn_scenes(const visuals::planning::Scene& scene, const visuals::scene::Settings& settings);
+
+/// A pinhole picture.
+struct PictureRequest {
+    visuals::scene::Camera camera;
+    glm::ivec2 size_px{0};
+    int samples = 16;
+    /// Of all aircraft.
+    std::span<const sim::AircraftState> states;
+    /// Nothing = no flow.
+    std::optional<visuals::planning::PreviousFrame> previous = std::nullopt;
+};
+
 /// What one thread needs to draw pictures of a scene: a planner and a renderer of its own, with their memory. Pictures
 /// do not depend on those before them.
 class DrawingLane {
 public:
-    /// The scene and the settings must outlive it. Loading work: milliseconds.
-    DrawingLane(const visuals::planning::Scene& scene, const visuals::scene::Settings& settings);
+    /// The scenes must outlive it. Loading work: milliseconds.
+    explicit DrawingLane(const DrawnScenes& scenes);
     DrawingLane(const DrawingLane&) = delete;
     DrawingLane& operator=(const DrawingLane&) = delete;
     DrawingLane(DrawingLane&&) = delete;
     DrawingLane& operator=(DrawingLane&&) = delete;
     ~DrawingLane() = default;
 
-    /// Plans and draws a picture. Valid until the next one: 4 bytes a pixel, rows from the top.
-    const visuals::scene::Picture& draw(const visuals::scene::Camera& camera, const glm::ivec2& size_px, int samples,
-        std::span<const sim::AircraftState> states);
+    /// Plans a picture. Valid until the next plan.
+    const visuals::scene::FramePlan& plan(const PictureRequest& request);
+
+    /// The same of the aircraft alone; those that are absent in the states are absent.
+    const visuals::scene::FramePlan& plan_alone(const PictureRequest& request);
+
+    /// Draws what was planned. Valid until the next picture: 4 bytes a pixel, rows from the top.
+    const visuals::scene::Picture& draw();
+
+    /// In place of draw() where only truth is wanted.
+    void prepare_truth();
+
+    /// Writes the truth of what draw() or prepare_truth() was called for, as raster::Renderer::draw_truth.
+    void draw_truth(const visuals::scene::TruthArrays& to, std::span<const glm::vec2> at_px = {});
+
+    /// The radius by which distant aircraft sink in these pictures; 0 = they do not.
+    double earth_radius_m() const { return planner_.earth_radius_m(); }
 
 private:
+    const visuals::scene::FramePlan& plan_by(visuals::planning::Planner& planner, const PictureRequest& request);
+
+    const DrawnScenes& scenes_;
     visuals::planning::Planner planner_;
+    std::optional<visuals::planning::Planner> alone_planner_; ///< made when it is first asked for
     visuals::raster::Renderer renderer_;
     visuals::scene::Picture picture_;
+    const visuals::scene::FramePlan* plan_ = nullptr;
 };
 
 /// The lanes of a scene. Grows to the number of threads that have drawn at the same time.
 class DrawingLanes {
 public:
-    /// As DrawingLane.
-    DrawingLanes(const visuals::planning::Scene& scene, const visuals::scene::Settings& settings)
-        : scene_(scene), settings_(settings) {}
+    explicit DrawingLanes(DrawnScenes scenes) : scenes_(std::move(scenes)) {}
 
     /// Calls work(index, lane) once for each index below `count` on at most `threads` threads, this one among them:
     /// each takes the next index that is left, and draws with a lane of its own. `is_stopped`, if not empty, is asked
@@ -59,8 +101,7 @@ private:
     std::unique_ptr<DrawingLane> take();
     void give_back(std::unique_ptr<DrawingLane> lane);
 
-    const visuals::planning::Scene& scene_;
-    const visuals::scene::Settings& settings_;
+    DrawnScenes scenes_;
     std::mutex mutex_;
     std::vector<std::unique_ptr<DrawingLane>> idle_;
 };

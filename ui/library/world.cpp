@@ -1,11 +1,14 @@
 #include "sim/base/earth_frame.h"
 #include "sim/base/error.h"
+#include "sim/base/output_file.h"
 #include "sim/base/random_generator.h"
 #include "sim/base/thread_pool.h"
 #include "ui/base/version.h"
+#include "ui/library/boxes.h"
 #include "ui/library/conversions.h"
 #include "ui/library/drawing_lanes.h"
 #include "ui/library/loaded_world.h"
+#include "ui/library/scene_file.h"
 #include "ui/settings/setting_rows.h"
 #include "ui/world/scene_ground.h"
 
@@ -64,7 +67,7 @@ std::vector<Object> objects_of(const planning::Scene& scene, const ui::settings:
         object.kind = i < settings.path.aircraft.size() ? ui::settings::aircraft_shape(settings.path.aircraft[i])
                                                         : model.polygons.name;
         const int number = ++count[object.kind];
-        object.name = number == 1 ? object.kind : fmt::format("{} {}", object.kind, number);
+        object.name = number == 1 ? object.kind : fmt::format("{}-{}", object.kind, number);
         object.size_m = library::vec3_from(model.hull.max_m - model.hull.min_m);
         object.box_centre_m = library::vec3_from(0.5 * (model.hull.max_m + model.hull.min_m));
         objects.push_back(std::move(object));
@@ -103,6 +106,16 @@ ui::settings::RunSettings world_settings(ui::settings::RunSettings settings) {
     return settings;
 }
 
+/// Makes what the ground makes when it is first asked for, on two threads, instead of in the first picture.
+void finish_loading(const ui::settings::RunSettings& settings, const planning::Scene& scene) {
+    constexpr bool on_two_threads = true;
+    const auto roads = [&] {
+        return settings.ground.roads && !scene.ground_texture ? scene.ground->road_network() : nullptr;
+    };
+    const auto land = [&] { return settings.air.sky ? &scene.ground->backdrop() : nullptr; };
+    run_both(on_two_threads, roads, land);
+}
+
 std::shared_ptr<Loaded> load(const ui::settings::RunSettings& settings, const Loaded* shared,
     const std::function<void(std::string_view)>& on_note) {
     auto loaded = std::make_shared<Loaded>();
@@ -112,7 +125,8 @@ std::shared_ptr<Loaded> load(const ui::settings::RunSettings& settings, const Lo
     loaded->settings = ui::world::with_sun_at_time(loaded->settings, loaded->world.ground.place);
     for (const std::string& note : loaded->world.notes) { tell(on_note, note); }
     loaded->objects = objects_of(loaded->world.scene, loaded->settings);
-    loaded->lanes.emplace(loaded->world.scene, loaded->settings);
+    finish_loading(loaded->settings, loaded->world.scene);
+    loaded->lanes.emplace(library::drawn_scenes(loaded->world.scene, loaded->settings));
     return loaded;
 }
 
@@ -135,6 +149,7 @@ struct [[gnu::visibility("hidden")]] World::Impl {
         auto impl = std::make_shared<Impl>();
         impl->loaded = std::move(loaded);
         impl->set_states(first_states(impl->loaded->world));
+        impl->previous_states = impl->states;
         return impl;
     }
 
@@ -170,11 +185,56 @@ private:
     States made_;
 };
 
-std::vector<scene::Camera> cameras_of(const Camera& camera, std::span<const Pose> poses) {
-    std::vector<scene::Camera> cameras;
-    cameras.reserve(poses.size());
-    for (const Pose& pose : poses) { cameras.push_back(library::pinhole_camera(camera, pose)); }
-    return cameras;
+/// The pictures of a call, checked.
+class Pictures {
+public:
+    Pictures(const Camera& camera, std::span<const Pose> poses, const RenderOptions& options, const States& own,
+        const States& own_previous)
+        : size_px_(camera.width, camera.height), samples_(camera.samples), states_(options.states, own, poses.size()),
+          previous_states_(options.previous_states.empty() ? options.states : options.previous_states,
+              options.states.empty() ? own_previous : own, poses.size()) {
+        cameras_.reserve(poses.size());
+        previous_.reserve(poses.size());
+        for (const Pose& pose : poses) {
+            cameras_.push_back(library::pinhole_camera(camera, pose));
+            previous_.push_back(library::previous_camera(camera, pose));
+        }
+    }
+
+    /// Valid as long as this.
+    library::PictureRequest request(std::size_t picture) const {
+        library::PictureRequest request{cameras_[picture], size_px_, samples_, states_.of(picture)};
+        if (previous_[picture]) { request.previous.emplace(*previous_[picture], previous_states_.of(picture)); }
+        return request;
+    }
+
+private:
+    glm::ivec2 size_px_;
+    int samples_;
+    std::vector<scene::Camera> cameras_;
+    std::vector<std::optional<scene::Camera>> previous_;
+    PictureStates states_;
+    PictureStates previous_states_;
+};
+
+/// The arrays of one picture of a batch.
+scene::TruthArrays truth_of(const FrameArrays& to, std::size_t picture, std::size_t pixels) {
+    const auto from = [&](auto* array, std::size_t values) {
+        return array == nullptr ? nullptr : array + picture * values * pixels;
+    };
+    scene::TruthArrays truth;
+    truth.depth_m = from(to.depth_m, 1);
+    truth.class_id = from(to.class_id, 1);
+    truth.object_id = from(to.object_id, 1);
+    truth.normal = from(to.normal, 3);
+    truth.flow_px = from(to.flow_px, 2);
+    truth.coverage = from(to.coverage, 1);
+    return truth;
+}
+
+bool has_truth(const FrameArrays& to) {
+    return to.depth_m != nullptr || to.class_id != nullptr || to.object_id != nullptr || to.normal != nullptr ||
+           to.flow_px != nullptr || to.coverage != nullptr;
 }
 
 int thread_count(int wanted) {
@@ -340,17 +400,56 @@ void World::render(
     const std::shared_ptr<Impl> impl = impl_; // the world may be closed while it draws
     library::check_camera(camera);
     const int threads = thread_count(options.threads);
-    const std::vector<scene::Camera> cameras = cameras_of(camera, poses);
-    const PictureStates states(options.states, impl->states, poses.size());
-    const glm::ivec2 size_px(camera.width, camera.height);
-    const std::size_t values = 3 * static_cast<std::size_t>(camera.width) * static_cast<std::size_t>(camera.height);
+    const Pictures pictures(camera, poses, options, impl->states, impl->previous_states);
+    const std::size_t pixels = static_cast<std::size_t>(camera.width) * static_cast<std::size_t>(camera.height);
+    const bool wants_truth = has_truth(to);
     const auto draw = [&](std::size_t picture, library::DrawingLane& lane) {
-        if (to.rgb == nullptr) { return; }
-        write_rgb(lane.draw(cameras[picture], size_px, camera.samples, states.of(picture)), to.rgb + picture * values);
+        lane.plan(pictures.request(picture));
+        if (to.rgb != nullptr) {
+            write_rgb(lane.draw(), to.rgb + picture * 3 * pixels);
+        } else if (wants_truth) {
+            lane.prepare_truth();
+        }
+        if (wants_truth) { lane.draw_truth(truth_of(to, picture, pixels)); }
     };
     if (!impl->loaded->lanes->for_each(poses.size(), threads, options.is_stopped, draw)) {
         throw Interrupted("render: stopped by the caller");
     }
+}
+
+std::vector<std::vector<Box>> World::boxes(
+    const Camera& camera, std::span<const Pose> poses, const RenderOptions& options) const {
+    const std::shared_ptr<Impl> impl = impl_;
+    library::check_camera(camera);
+    const int threads = thread_count(options.threads);
+    const Pictures pictures(camera, poses, options, impl->states, impl->previous_states);
+    std::vector<planning::AxisAlignedBox> bounds;
+    for (std::size_t i = 0; i < impl->scene().aircraft.size(); ++i) {
+        bounds.push_back(impl->scene().model_of(i).hull);
+    }
+    std::vector<std::vector<Box>> boxes(poses.size());
+    const auto find = [&](std::size_t picture, library::DrawingLane& lane) {
+        library::PictureRequest request = pictures.request(picture);
+        request.previous.reset();
+        boxes[picture] = library::BoxFinder(camera, bounds).boxes_in(request, lane);
+    };
+    if (!impl->loaded->lanes->for_each(poses.size(), threads, options.is_stopped, find)) {
+        throw Interrupted("boxes: stopped by the caller");
+    }
+    return boxes;
+}
+
+void World::export_scene(const std::string& path, const Camera& camera, const Pose& pose) const {
+    const std::shared_ptr<Impl> impl = impl_;
+    library::check_camera(camera);
+    check_can_write(path);
+    const Pictures pictures(camera, std::span(&pose, 1), {}, impl->states, impl->previous_states);
+    std::string obj;
+    impl->loaded->lanes->for_each(1, 1, {}, [&](std::size_t picture, library::DrawingLane& lane) {
+        const library::PictureRequest request = pictures.request(picture);
+        obj = library::obj_of(lane.plan(request), impl->scene(), request.camera.eye_m);
+    });
+    write_file(path, obj);
 }
 
 struct [[gnu::visibility("hidden")]] WorldAccess{

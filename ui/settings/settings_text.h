@@ -72,9 +72,9 @@ consteval bool names_each_value_once() {
     return !is_enumerator<static_cast<Enum>(count)>();
 }
 
-/// The names in the order of their values.
+/// The names in the order of their values. Named hidden, because GCC 12 forgets that for variable templates.
 template <class Enum>
-inline constexpr auto names_by_value = [] {
+[[gnu::visibility("hidden")]] inline constexpr auto names_by_value = [] {
     static_assert(names_each_value_once<Enum>(), "enum_names must name each enumerator once");
     std::array<std::string_view, enum_names<Enum>.size()> names;
     for (const EnumName<Enum>& row : enum_names<Enum>) { names[static_cast<std::size_t>(row.value)] = row.name; }

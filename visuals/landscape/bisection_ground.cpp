@@ -389,6 +389,10 @@ public:
 
     std::shared_ptr<const scene::LandCoverContrast> land_cover_contrast() const override { return contrast_; }
 
+    std::optional<double> water_level_m() const override {
+        return water_level_of(air(), climate_at(tiles_->metadata().place));
+    }
+
     glm::vec3 colour_at(double x_m, double y_m, double footprint_m) const override {
         const terrain::GroundSamples samples(*tiles_);
         const GroundPalette palette(air(), climate_at(tiles_->metadata().place), terrain_shadows_);
@@ -484,7 +488,11 @@ public:
         if (std::exchange(has_mesh_begun_, true)) { return; }
         set_target(request);
         next_mesh_view_ = view_of(request);
-        background_task_.begin([this] { make(next_mesh_view_); }, on_idle_thread);
+        const auto work = [this] {
+            make(next_mesh_view_);
+            mesher_.measure_boxes(); // here, where nobody waits for it
+        };
+        background_task_.begin(work, on_idle_thread);
     }
 
     void wait() override { background_task_.wait(); }
@@ -502,7 +510,7 @@ public:
         last_eye_m_ = eye_m;
         counts = {static_cast<int>(drawn_mesh_.indices.size() / 3), mesh_.counters.fans, 0.0, mesh_.error_px,
             static_cast<int>(drawn_mesh_.detail_triangles), static_cast<int>(drawn_mesh_.scenery_triangles)};
-        return {drawn_mesh_.vertices, drawn_mesh_.indices};
+        return {drawn_mesh_.vertices, drawn_mesh_.indices, drawn_mesh_.standing};
     }
 
     void triangles_in(const BoxTest& wanted, std::vector<std::uint32_t>& triangles) const override {
@@ -575,14 +583,13 @@ private:
                 }
             }
             is_coloured_ = true;
-            mesher_.measure_boxes();
             show(mesh);
         }
         mesh_ = mesh;
     }
 
     void show(const terrain::GroundMesh& mesh) {
-        drawn_mesh_ = {mesh.vertices, mesh.indices, 0, 0};
+        drawn_mesh_ = {mesh.vertices, mesh.indices, {}, 0, 0};
         if (adds_detail()) {
             drawn_mesh_ = detailed_ground_.detailed_mesh(
                 mesh, near_view_, detail_, decorations_, has_texture_ ? nullptr : &colour_at_point_);

@@ -60,6 +60,9 @@ public:
     /// it says nothing.
     virtual std::shared_ptr<const scene::LandCoverContrast> land_cover_contrast() const { return nullptr; }
 
+    /// Level ground at this height above datum or below is water; nothing = there is no water.
+    virtual std::optional<double> water_level_m() const { return std::nullopt; }
+
     /// Colour of a place on the map as the mean over about `footprint_m`, display values.
     virtual glm::vec3 colour_at(double /*x_m*/, double /*y_m*/, double /*footprint_m*/) const { return mean_colour(); }
 

@@ -343,6 +343,10 @@ nature::Climate climate_at(const std::optional<GeoPosition>& place) {
                                        : nature::extraterrestrial_climate(place->ellipsoid);
 }
 
+std::optional<double> water_level_of(const scene::AirSettings& settings, const nature::Climate& climate) {
+    return climate.dust ? std::nullopt : std::optional(settings.water_level_m);
+}
+
 GroundPalette::GroundPalette(const scene::AirSettings& settings, const nature::Climate& climate,
     std::shared_ptr<const nature::ReliefShadows> terrain_shadows)
     : daylight_(daylight_of(settings)), climate_(climate), terrain_shadows_(std::move(terrain_shadows)),

@@ -48,6 +48,9 @@ std::shared_ptr<const nature::ReliefShadows> make_relief_shadows(
 /// The climate at a position on the earth; without a position, that of generated ground. No vegetation on other bodies.
 nature::Climate climate_at(const std::optional<GeoPosition>& place);
 
+/// The height of the water under these settings; nothing on other bodies than the earth.
+std::optional<double> water_level_of(const scene::AirSettings& settings, const nature::Climate& climate);
+
 /// Whether ground has the same colours under both: its sun, water and palette.
 bool same_colours(const scene::AirSettings& a, const scene::AirSettings& b);
 

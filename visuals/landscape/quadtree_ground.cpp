@@ -68,6 +68,8 @@ public:
         return nearest_colour(terrain::GroundSamples(*field_), palette, {x_m, y_m}, footprint_m);
     }
 
+    std::optional<double> water_level_m() const override { return water_level_of(air(), climate_at(field_->place)); }
+
     std::optional<GroundTextureSource> source() const override {
         return GroundTextureSource{terrain::GroundSamples(*field_), models::heights::area_of(*field_), field_->place};
     }

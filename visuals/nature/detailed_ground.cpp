@@ -144,6 +144,7 @@ public:
         view_ = view;
         decorations_ = decorations;
         scenery_triangles_ = 0;
+        standing_.clear();
         colour_ = colour;
         vertices_.assign(vertices.begin(), vertices.end());
         midpoints_.resize(std::max({min_places, std::bit_ceil(2 * view.max_splits), midpoints_.size()}));
@@ -160,7 +161,9 @@ public:
     /// Appends what stands on a triangle.
     void add_standing(const std::array<glm::vec3, 3>& triangle_m, std::vector<std::uint32_t>& indices) {
         const std::size_t before = indices.size();
-        for (const auto& decoration : *decorations_) { decoration->add_standing(triangle_m, vertices_, indices); }
+        for (const auto& decoration : *decorations_) {
+            decoration->add_standing(triangle_m, {vertices_, indices, standing_});
+        }
         scenery_triangles_ += (indices.size() - before) / 3;
     }
 
@@ -169,6 +172,9 @@ public:
 
     /// Those of the mesh, then new ones.
     std::vector<models::ColourVertex>& vertices() { return vertices_; }
+
+    /// The vertices of what stands on the ground.
+    std::vector<models::VertexRun>& standing() { return standing_; }
 
 private:
     struct EdgeMidpoint {
@@ -306,6 +312,7 @@ private:
     std::size_t added_ = 0; ///< halvings
     std::size_t scenery_triangles_ = 0;
     std::vector<models::ColourVertex> vertices_;
+    std::vector<models::VertexRun> standing_;
     std::vector<EdgeMidpoint> midpoints_; ///< a table by edge
 };
 
@@ -450,6 +457,7 @@ void reverse_triangles(std::vector<std::uint32_t>& indices) {
 struct DetailedFrame {
     std::vector<models::ColourVertex> vertices;
     std::vector<std::uint32_t> indices;
+    std::vector<models::VertexRun> standing;
 };
 
 struct DetailedGround::Memory {
@@ -476,6 +484,7 @@ DetailedGround::Triangles DetailedGround::detailed_mesh(const terrain::GroundMes
     memory.frame_number = 1 - memory.frame_number;
     DetailedFrame& frame = memory.frames[memory.frame_number];
     std::swap(mesh_builder.vertices(), frame.vertices); // memory of the frame before the last
+    std::swap(mesh_builder.standing(), frame.standing);
     mesh_builder.begin(view, mesh.vertices, detail.scenery ? &decorations : nullptr, colour);
     float reach_m = 0.0F;
     for (const auto& decoration : decorations) {
@@ -523,9 +532,10 @@ DetailedGround::Triangles DetailedGround::detailed_mesh(const terrain::GroundMes
         for (std::uint32_t& first : first_index_of) { first = all - first; }
     }
     std::swap(mesh_builder.vertices(), frame.vertices);
+    std::swap(mesh_builder.standing(), frame.standing);
     const std::size_t scenery_triangles = mesh_builder.scenery_triangles();
-    return {frame.vertices, frame.indices, frame.indices.size() / 3 - count - scenery_triangles, scenery_triangles,
-        view.min_edge_rad};
+    return {frame.vertices, frame.indices, frame.standing, frame.indices.size() / 3 - count - scenery_triangles,
+        scenery_triangles, view.min_edge_rad};
 }
 
 void DetailedGround::replace(std::vector<std::uint32_t>& triangles, std::size_t first) const {

@@ -57,10 +57,11 @@ public:
 
     struct Triangles {
         std::span<const models::ColourVertex> vertices;
-        std::span<const std::uint32_t> indices; ///< in the order of the mesh
-        std::size_t detail_triangles = 0;       ///< triangles that halving has added
-        std::size_t scenery_triangles = 0;      ///< triangles of what stands on the ground
-        float min_edge_rad = 0.0F;              ///< edges that look shorter stayed whole
+        std::span<const std::uint32_t> indices;      ///< in the order of the mesh
+        std::span<const models::VertexRun> standing; ///< vertices of what stands on the ground, ascending
+        std::size_t detail_triangles = 0;            ///< triangles that halving has added
+        std::size_t scenery_triangles = 0;           ///< triangles of what stands on the ground
+        float min_edge_rad = 0.0F;                   ///< edges that look shorter stayed whole
     };
 
     /// `mesh` has colours; `colour` gives those of the middles of edges; null = the mean of both ends. The result stays

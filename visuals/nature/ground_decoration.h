@@ -1,6 +1,7 @@
 #pragma once
 
 #include "models/colour_vertex.h"
+#include "models/surface_class.h"
 #include "visuals/terrain/ground_mesh.h"
 
 #include <glm/common.hpp>
@@ -55,6 +56,14 @@ struct GroundPatch {
     bool is_marking = false; ///< painted on another patch
     bool is_required = true; ///< false: left out where a frame has no triangles left
     bool is_on_water = true; ///< false: left out on triangles of water, and of what stands on the ground
+    models::SurfaceClass surface = models::SurfaceClass::Road;
+};
+
+/// Lists to which what stands on the ground is appended.
+struct StandingTriangles {
+    std::vector<models::ColourVertex>& vertices;
+    std::vector<std::uint32_t>& indices;
+    std::vector<models::VertexRun>& runs; ///< of what is appended to `vertices`
 };
 
 /// One kind of thing that stands on the ground (trees and houses) or lies on it (roads, a runway), for one view. A
@@ -93,10 +102,8 @@ public:
     virtual bool stands_at(const glm::dvec2& /*place_m*/) { return false; }
 
     /// Appends what stands on a triangle (world axes with the eye subtracted, as drawn), none of it below the
-    /// triangle's plane, from near to far: to `vertices`, and as triangles, counter-clockwise seen from outside, to
-    /// `indices`.
-    virtual void add_standing(const std::array<glm::vec3, 3>& /*triangle_m*/,
-        std::vector<models::ColourVertex>& /*vertices*/, std::vector<std::uint32_t>& /*indices*/) {}
+    /// triangle's plane, from near to far; triangles are counter-clockwise seen from outside.
+    virtual void add_standing(const std::array<glm::vec3, 3>& /*triangle_m*/, const StandingTriangles& /*to*/) {}
 
     // Lying: patches that are cut to the triangles of the ground and painted right after them.
 

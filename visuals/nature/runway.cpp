@@ -234,6 +234,7 @@ public:
             patch.colour = (one.is_painted ? glm::mix(surface_colour, paint_colour, own) : surface_colour) * light_;
             patch.is_marking = one.is_painted;
             patch.is_required = !one.is_painted;
+            patch.surface = models::SurfaceClass::Runway;
             seen_.push_back({glm::dvec2(one.min_m), glm::dvec2(one.max_m), patch});
         }
         return !seen_.empty();

@@ -261,8 +261,9 @@ public:
         return false;
     }
 
-    void add_standing(const std::array<glm::vec3, 3>& triangle_m, std::vector<models::ColourVertex>& vertices,
-        std::vector<std::uint32_t>& indices) override {
+    void add_standing(const std::array<glm::vec3, 3>& triangle_m, const StandingTriangles& to) override {
+        std::vector<models::ColourVertex>& vertices = to.vertices;
+        std::vector<std::uint32_t>& indices = to.indices;
         placed_items_.clear();
         collect(triangle_m);
         std::ranges::sort(placed_items_,
@@ -276,12 +277,16 @@ public:
             const float height_share = std::clamp(4.0F - 4.0F * distance_m / begins_m, 0.0F, 1.0F);
             if (height_share <= 0.0F || added_ >= view_.max_scenery_triangles) { continue; }
             const std::size_t before = indices.size();
-            if (one.item.kind == SceneryKind::House) {
+            const auto first_vertex = static_cast<std::uint32_t>(vertices.size());
+            const bool is_house = one.item.kind == SceneryKind::House;
+            if (is_house) {
                 build_house(one, height_share, vertices, indices);
             } else {
                 build_tree(one, height_share, detail_at(distance_m), vertices, indices);
             }
             remove_back_faces(vertices, before, indices);
+            to.runs.push_back({first_vertex, static_cast<std::uint32_t>(vertices.size()),
+                is_house ? models::SurfaceClass::Building : models::SurfaceClass::Tree});
             added_ += (indices.size() - before) / 3;
         }
     }

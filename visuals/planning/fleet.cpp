@@ -35,15 +35,6 @@ glm::dmat4 body_to_eye_world(const sim::AircraftState& state, const glm::dvec3& 
 
 constexpr double absent_depth_m = 1e5;
 
-/// The state as it is seen over a round earth: sunk as far as the ground below it.
-sim::AircraftState sunk(sim::AircraftState state, const glm::dvec3& eye_m, double earth_radius_m) {
-    if (earth_radius_m > 0.0) {
-        const glm::dvec2 level_m(state.position_m - eye_m);
-        state.position_m.z -= glm::dot(level_m, level_m) / (2.0 * earth_radius_m);
-    }
-    return state;
-}
-
 scene::PolygonTints model_tints(const PlacedAircraft& aircraft, scene::ModelDisplay look) {
     const AircraftModel& model = *aircraft.model;
     if (look == scene::ModelDisplay::None || (look == scene::ModelDisplay::Levels && is_refined(aircraft))) {
@@ -56,10 +47,33 @@ scene::PolygonTints model_tints(const PlacedAircraft& aircraft, scene::ModelDisp
     return {colour, colour};
 }
 
+/// Writes the matrices of an aircraft's parts in a state, with the eye subtracted.
+void place_all_parts(const PlacedAircraft& aircraft, const sim::AircraftState& state,
+    std::span<const ArticulatedPart> articulated_parts, const glm::dvec3& eye_m, std::span<glm::dmat4> parts) {
+    const models::polygons::PolygonModel& polygons = aircraft.model->polygons;
+    place_parts(polygons, body_to_eye_world(state, eye_m), state.time_s, parts);
+    const models::polygons::PolygonModel& numbered =
+        aircraft.far_model == nullptr ? polygons : aircraft.near_model->polygons;
+    for (const ArticulatedPart& part : articulated_parts) {
+        if (part.aircraft == aircraft.number) { place_articulated_part(polygons, numbered, part, parts); }
+    }
+}
+
 } // namespace
 
+sim::AircraftState sunk(sim::AircraftState state, const glm::dvec3& eye_m, double earth_radius_m) {
+    if (earth_radius_m > 0.0) {
+        const glm::dvec2 level_m(state.position_m - eye_m);
+        state.position_m.z -= glm::dot(level_m, level_m) / (2.0 * earth_radius_m);
+    }
+    return state;
+}
+
 Fleet::Fleet(const Scene& scene, const scene::Settings& settings) : scene_(scene), settings_(settings) {
-    for (const std::uint32_t model : scene.aircraft) { add(model); }
+    for (const std::uint32_t model : scene.aircraft) {
+        add(model);
+        placed_.back().object = placed_.back().number + 1;
+    }
     bounding_boxes_.resize(placed_.size());
     if (scene.cockpit && settings.view.kind == scene::View::Cockpit) { add(*scene.cockpit); }
     for (const PlacedAircraft& aircraft : placed_) {
@@ -109,6 +123,23 @@ void Fleet::place(
     }
 }
 
+void Fleet::place_before(const FrameView& view, const PreviousFrame& before, std::span<glm::mat4> parts) const {
+    const glm::dvec3& eye_m = view.camera.eye_m;
+    std::vector<glm::dmat4> placed_parts;
+    std::ranges::fill(parts, glm::mat4(0.0F));
+    for (const PlacedAircraft& aircraft : placed_) {
+        const bool is_cockpit = aircraft.number >= bounding_boxes_.size();
+        const std::size_t number = is_cockpit ? 0 : aircraft.number;
+        if (number >= before.states.size() || (!before.states[number].is_present && !is_cockpit)) { continue; }
+        sim::AircraftState state = sunk(before.states[number], eye_m, view.earth_radius_m);
+        if (is_cockpit) { state.position_m = eye_m; }
+        placed_parts.resize(aircraft.parts.size());
+        place_all_parts(aircraft, state, before.articulated_parts, eye_m, placed_parts);
+        std::ranges::transform(
+            placed_parts, parts.begin() + aircraft.first_part, [](const glm::dmat4& part) { return glm::mat4(part); });
+    }
+}
+
 OrientedBox Fleet::bounding_box_of(const PlacedAircraft& aircraft, const sim::AircraftState& state,
     const std::optional<AxisAlignedBox>& effects, const FrameView& view) const {
     const glm::dvec3 position_m = state.position_m - view.camera.eye_m;
@@ -128,12 +159,7 @@ void Fleet::place(PlacedAircraft& aircraft, const sim::AircraftState& state,
     const AircraftModel& model = *aircraft.model;
     const auto parts = std::span(parts_).subspan(aircraft.first_part, model.polygons.pivots.size() + 1);
     aircraft.parts = parts;
-    place_parts(model.polygons, body_to_eye_world(state, eye_m), state.time_s, parts);
-    const models::polygons::PolygonModel& numbered =
-        aircraft.far_model == nullptr ? model.polygons : aircraft.near_model->polygons;
-    for (const ArticulatedPart& part : articulated_parts) {
-        if (part.aircraft == aircraft.number) { place_articulated_part(model.polygons, numbered, part, parts); }
-    }
+    place_all_parts(aircraft, state, articulated_parts, eye_m, parts);
     const glm::dvec3 eye_in_body_m = draworder::eye_in_body(eye_m, state.position_m, state.body_to_world);
     aircraft.cell = model.order.has_one_cell_per_eye() ? model.order.cell_of(eye_in_body_m) : 0;
     choose_representation(aircraft, view);

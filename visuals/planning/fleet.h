@@ -21,6 +21,9 @@
 
 namespace octant::visuals::planning {
 
+/// The state as it is seen over a round earth: sunk as far as the ground below it. `earth_radius_m`: 0 = as it is.
+sim::AircraftState sunk(sim::AircraftState state, const glm::dvec3& eye_m, double earth_radius_m);
+
 /// The aircraft of one view, and the cockpit around its eye: their places in each frame, their representations
 /// (polygons in the order for its eye point, a level of detail, or a mesh refined for the frame), and their bounding
 /// boxes. Levels of detail and refined meshes depend on the frames before.
@@ -33,6 +36,10 @@ public:
     /// bounds of its effects, in body axes, which its bounding box encloses, too.
     void place(const FrameView& view, const PlanRequest& request,
         std::span<const std::optional<AxisAlignedBox>> effect_bounds);
+
+    /// Writes to `parts` where the parts of placed() were in an earlier frame, as parts() is numbered, with the eye of
+    /// `view` subtracted; zero for absent aircraft. Follows place().
+    void place_before(const FrameView& view, const PreviousFrame& before, std::span<glm::mat4> parts) const;
 
     /// Refines the progressive meshes of the aircraft that are drawn by one. Follows place().
     void refine(const FrameView& view);

@@ -36,6 +36,15 @@ struct SmoothTarget {
     std::optional<double> share;
 };
 
+/// From where, and with which aircraft, the previous picture of the same camera was made.
+struct PreviousFrame {
+    scene::Camera camera;
+    /// As PlanRequest::states.
+    std::span<const sim::AircraftState> states;
+    /// As PlanRequest::articulated_parts.
+    std::span<const ArticulatedPart> articulated_parts = {};
+};
+
 /// The input of one frame.
 struct PlanRequest {
     scene::Camera camera;
@@ -50,6 +59,8 @@ struct PlanRequest {
     std::span<const ArticulatedPart> articulated_parts = {};
     /// The size of the picture; nothing = that of the settings.
     std::optional<glm::ivec2> size_px = std::nullopt;
+    /// What the flow of the ground truth is counted from (scene::TruthArrays::flow_px); nothing = no flow.
+    std::optional<PreviousFrame> previous = std::nullopt;
 };
 
 /// The numbers of things that one frame draws.

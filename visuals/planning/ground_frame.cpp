@@ -189,7 +189,7 @@ scene::TriangleDraw front_facing(const GroundFrame& ground, double pixel_rad, st
     }
     keep_until(draw.indices.size() / 3);
     kept.resize(count);
-    return {draw.vertices, kept};
+    return {draw.vertices, kept, draw.standing};
 }
 
 scene::TriangleDraw front_facing_first(
@@ -208,7 +208,7 @@ scene::TriangleDraw front_facing_first(
     }
     edge_on_indices = kept.size() - back;
     kept.erase(kept.begin() + static_cast<std::ptrdiff_t>(count), kept.begin() + static_cast<std::ptrdiff_t>(back));
-    return {draw.vertices, kept};
+    return {draw.vertices, kept, draw.standing};
 }
 
 } // namespace octant::visuals::planning

@@ -4,6 +4,7 @@
 #include "sim/base/plane.h"
 #include "sim/base/units.h"
 #include "visuals/landscape/ground.h"
+#include "visuals/scene/truth.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -32,16 +33,20 @@ float depth_offset_factor(GroundLayer layer) { return 1.0F - static_cast<float>(
 struct PieceList {
     std::size_t ground_vertices = 0;
     std::vector<models::ColourVertex>* vertices = nullptr; ///< Their numbers follow those of the ground's vertices.
+    std::vector<models::SurfaceClass>* surfaces = nullptr; ///< One for each of them.
     std::vector<std::uint32_t> indices;
     std::vector<PieceRange> pieces;
     std::vector<GroundDecal> decals;
     std::vector<glm::dvec3> decal_corners_m;
     int decal_triangles = 0;
 
-    void begin(const GroundPieces::Ground& ground, std::vector<models::ColourVertex>& to) {
+    void begin(const GroundPieces::Ground& ground, std::vector<models::ColourVertex>& to,
+        std::vector<models::SurfaceClass>& their_surfaces) {
         ground_vertices = ground.triangles.vertices.size();
         vertices = &to;
+        surfaces = &their_surfaces;
         to.clear();
+        surfaces->clear();
         indices.clear();
         pieces.clear();
         decals.clear();
@@ -50,7 +55,8 @@ struct PieceList {
     }
 
     /// Adds the last vertices as a fan.
-    void add_fan(std::size_t corners) {
+    void add_fan(std::size_t corners, models::SurfaceClass surface) {
+        surfaces->resize(vertices->size(), surface);
         const auto all = static_cast<std::uint32_t>(ground_vertices + vertices->size());
         const std::uint32_t base = all - static_cast<std::uint32_t>(corners);
         for (std::uint32_t i = 2; i < corners; ++i) { indices.insert(indices.end(), {base, base + i - 1, base + i}); }
@@ -273,7 +279,7 @@ private:
         GroundDecal& decal = pieces_.decals.emplace_back();
         decal = {number_, static_cast<std::uint32_t>(pieces_.decal_corners_m.size()),
             static_cast<std::uint32_t>(piece.count), models::packed_colour(colour) & 0x00ffffffU,
-            patch.is_marking ? GroundLayer::Marking : GroundLayer::Surface};
+            patch.is_marking ? GroundLayer::Marking : GroundLayer::Surface, patch.surface};
         const std::size_t first = pieces_.indices.size();
         for (std::size_t i = 0; i < piece.count; ++i) {
             const glm::dvec2& at_m = piece.corners[i];
@@ -282,7 +288,7 @@ private:
             pieces_.decal_corners_m.push_back(corner_m);
             pieces_.vertices->push_back({glm::vec3(corner_m) * depth_offset_factor(decal.layer), decal.colour});
         }
-        pieces_.add_fan(piece.count);
+        pieces_.add_fan(piece.count, decal.surface);
         pieces_.add_range(number_, decal.layer, first);
         pieces_.decal_triangles += static_cast<int>(piece.count) - 2;
     }
@@ -493,7 +499,7 @@ private:
                 unpacked(ground_->triangles.vertices[corner[2]].colour) * static_cast<float>(1.0 - share_a - share_b);
             pieces_.vertices->push_back({glm::vec3(at.at_m), shaded(colour, ground_->has_light_in_alpha)});
         }
-        pieces_.add_fan(part_.size());
+        pieces_.add_fan(part_.size(), scene::surface_of(ground_->triangles, ground_->water, corner));
     }
 
     /// Adds the shadows on a triangle again, clipped to its decals and in their darkened colours.
@@ -517,7 +523,7 @@ private:
                     pieces_.vertices->push_back({glm::vec3(at.at_m) * depth_offset_factor(GroundLayer::ShadowOnDecal),
                         shaded(unpacked(decal.colour), false)});
                 }
-                pieces_.add_fan(part_.size());
+                pieces_.add_fan(part_.size(), decal.surface);
             }
         }
         pieces_.add_range(triangle, GroundLayer::ShadowOnDecal, first);
@@ -557,8 +563,9 @@ GroundPieces::GroundPieces() : memory_(std::make_unique<Memory>()) {}
 
 GroundPieces::~GroundPieces() = default;
 
-void GroundPieces::begin(const Ground& ground, std::vector<models::ColourVertex>& vertices) {
-    memory_->list.begin(ground, vertices);
+void GroundPieces::begin(
+    const Ground& ground, std::vector<models::ColourVertex>& vertices, std::vector<models::SurfaceClass>& surfaces) {
+    memory_->list.begin(ground, vertices, surfaces);
     memory_->clipper.begin(ground);
     memory_->caster.begin(ground);
     memory_->triangles = ground.triangles;

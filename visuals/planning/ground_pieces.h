@@ -25,6 +25,7 @@ struct GroundDecal {
     std::uint32_t count = 0;
     std::uint32_t colour = 0;
     GroundLayer layer = GroundLayer::Surface;
+    models::SurfaceClass surface = models::SurfaceClass::Road;
 };
 
 /// Makes the pieces that lie on the ground of a frame, each cut to one triangle of the ground: decals of decorations,
@@ -46,11 +47,13 @@ public:
         scene::TriangleDraw triangles;   ///< All of GroundMesher::triangles(), whichever way they face.
         bool is_front_to_back = false;   ///< Whether the nearest triangles come first.
         bool has_light_in_alpha = false; ///< Whether the alpha of its colours is the light that reaches them.
+        scene::WaterSurface water{};
     };
 
     /// Forgets the last frame. The corners of pieces are written to `vertices`; their numbers follow those of the
-    /// ground's vertices.
-    void begin(const Ground& ground, std::vector<models::ColourVertex>& vertices);
+    /// ground's vertices. `surfaces` gets for each of them what the piece lies on, or is.
+    void begin(
+        const Ground& ground, std::vector<models::ColourVertex>& vertices, std::vector<models::SurfaceClass>& surfaces);
 
     /// Adds the visible decals of a decoration, on the nearest triangles first: all required patches, and others while
     /// the decals have at most `max_triangles`.

@@ -63,6 +63,7 @@ scene::AircraftDraw draw_of(const PlacedAircraft& aircraft, std::uint32_t first_
     draw.first_part = aircraft.first_part;
     draw.first_smooth = aircraft.first_smooth;
     draw.tints = aircraft.tints;
+    draw.object = aircraft.object;
     return draw;
 }
 

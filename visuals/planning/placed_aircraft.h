@@ -18,6 +18,8 @@ namespace octant::visuals::planning {
 struct ViewedAircraft {
     /// Index into Scene::aircraft; the cockpit has the number after the last aircraft.
     std::uint32_t number = 0;
+    /// AircraftDraw::object; the cockpit has that of the first aircraft.
+    std::uint32_t object = 1;
     const AircraftModel* near_model = nullptr;
     const AircraftModel* far_model = nullptr; ///< FarModel; null = near_model is drawn at any distance.
     std::uint32_t near_index = 0;             ///< Index into Scene::models, as far_index.

@@ -142,6 +142,8 @@ public:
         }
     }
 
+    double earth_radius_m() const { return mesher_->earth_radius_m(); }
+
     void forget_frames() {
         is_settled_ = false;
         is_placed_ = false;
@@ -173,6 +175,8 @@ public:
         const GroundFrame ground = make_ground(request, view, counts);
         atmosphere_->write(view, plan_);
         transparents_.make(view, request, fleet_, plan_);
+        note_clouds(view);
+        note_previous(request);
         plan_.overlay = overlay_.draw(transparents_.draw(), request, view.size_px, transparents_.has_ribbon());
         count(choose_smooth(request.smooth), counts);
         painter_.paint(
@@ -228,13 +232,47 @@ private:
             view.size_px.y};
     }
 
+    scene::WaterSurface water_of(const FrameView& view) const {
+        const std::optional<double> level_m = scene_.ground->water_level_m();
+        if (!level_m) { return {}; }
+        return {static_cast<float>(*level_m - view.camera.eye_m.z), static_cast<float>(view.earth_radius_m)};
+    }
+
+    /// Writes what the flow is counted from.
+    void note_previous(const PlanRequest& request) {
+        std::optional<scene::PreviousPicture>& previous = plan_.truth.previous;
+        if (!request.previous) {
+            previous.reset();
+            return;
+        }
+        PlanRequest before{request.previous->camera, request.previous->states};
+        before.size_px = request.size_px;
+        const FrameView view = view_of(before);
+        if (!previous) { previous.emplace(); }
+        previous->world_to_view = world_to_view(view.camera);
+        previous->view_to_clip = view_to_clip(view.camera, view.aspect);
+        previous->eye_moved_m = request.camera.eye_m - view.camera.eye_m;
+        previous->parts.resize(plan_.parts.size());
+        fleet_.place_before(view, *request.previous, previous->parts);
+    }
+
+    void note_clouds(const FrameView& view) {
+        const TransparentRange clouds = transparents_.clouds();
+        plan_.truth.first_cloud_index = static_cast<std::uint32_t>(clouds.first);
+        plan_.truth.cloud_index_count = static_cast<std::uint32_t>(clouds.count);
+        plan_.truth.cloud_height_m =
+            static_cast<float>(transparents_.cloud_height_m().value_or(0.0) - view.camera.eye_m.z);
+    }
+
     /// Meshes the ground, lays decorations on it within the rest of the requested triangles, and casts shadows.
     GroundFrame make_ground(const PlanRequest& request, const FrameView& view, PlanCounts& counts) {
         const scene::TriangleDraw triangles =
             mesher_->triangles(ground_request(view, request.triangle_target), counts.ground);
         const bool is_front_to_back = settings_.surface.hidden_surface == scene::HiddenSurface::DepthBuffer;
+        plan_.truth.water = water_of(view);
         pieces_.begin(
-            {view, *mesher_, triangles, is_front_to_back, plan_.ground_texture.has_value()}, plan_.shadow_vertices);
+            {view, *mesher_, triangles, is_front_to_back, plan_.ground_texture.has_value(), plan_.truth.water},
+            plan_.shadow_vertices, plan_.truth.piece_surfaces);
         const int asked = requested_triangles(request.triangle_target);
         for (const auto& decoration : mesher_->decorations()) {
             const int max_triangles = decoration->max_patch_triangles(view.camera.eye_m, view.pixel_rad, asked);
@@ -324,6 +362,8 @@ void Planner::wait() { impl_->wait(); }
 void Planner::place_aircraft(const PlanRequest& request) { impl_->place_aircraft(request); }
 
 PlannedFrame Planner::plan(const PlanRequest& request) { return impl_->plan(request); }
+
+double Planner::earth_radius_m() const { return impl_->earth_radius_m(); }
 
 void Planner::forget_frames() { impl_->forget_frames(); }
 

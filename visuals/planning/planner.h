@@ -60,6 +60,9 @@ public:
     /// The plan of the next frame, and its counts. Allocates nothing after the first frames.
     PlannedFrame plan(const PlanRequest& request);
 
+    /// The radius of the earth by which distant ground and aircraft sink in the plans; 0 = they do not.
+    double earth_radius_m() const;
+
     /// Forgets the frames before: the next plan() depends on its request alone, as that of a new planner. For pictures
     /// that do not follow one another. Keeps all memory; takes microseconds, but for meshes that are refined in each
     /// frame, and for ground whose detail control averages over frames: these are made anew by the next plan().

@@ -655,6 +655,7 @@ private:
         draw.first_part = aircraft.first_part;
         draw.first_smooth = frame_->smooth.refined_word_index();
         draw.tints = aircraft.tints;
+        draw.object = aircraft.object;
         steps_.add(draw);
         if (const scene::IndexRange& turning = aircraft.model->turning; turning.index_count > 0) {
             scene::AircraftDraw turning_draw = draw_of(aircraft, turning.first_index, turning.index_count);

@@ -93,6 +93,9 @@ glm::vec3 through_haze(const scene::Haze& haze, const glm::dvec3& position_m, co
 
 Sky::Sky(const nature::Daylight& day, nature::Backdrop land)
     : first_azimuth_rad_(std::atan2(day.horizontal_to_sun().x, day.horizontal_to_sun().y)), land_(std::move(land)) {
+    for (int segment_index = 0; segment_index < sky_segments; ++segment_index) {
+        levels_.push_back(direction_from_heading(first_azimuth_rad_ - 2.0 * pi * segment_index / sky_segments));
+    }
     add_dome(day);
     add_sun(day);
     sky_vertices_ = vertices_.size();
@@ -121,9 +124,7 @@ void Sky::add_ring_triangles(std::uint32_t upper, std::uint32_t lower, int verti
 void Sky::add_dome(const nature::Daylight& day) {
     for (const double elevation_deg : rings_above_deg) {
         const double elevation_rad = rad_from_deg(elevation_deg);
-        for (int segment_index = 0; segment_index < sky_segments; ++segment_index) {
-            const glm::dvec3 level =
-                direction_from_heading(first_azimuth_rad_ - 2.0 * pi * segment_index / sky_segments);
+        for (const glm::dvec3& level : levels_) {
             const double share = elevation_deg < 90.0 ? std::cos(elevation_rad) : 0.0;
             const glm::dvec3 direction(share * level.x, share * level.y, std::sin(elevation_rad));
             vertices_.push_back(dome_vertex(direction, day.sky(direction)));
@@ -170,44 +171,105 @@ void Sky::add_sun(const nature::Daylight& day) {
     }
 }
 
-void Sky::place_backdrop(const SurroundingPlain& plain, const scene::Haze& haze, const glm::dvec3& eye_m) {
-    auto* vertex = &vertices_[sky_vertices_];
+/// Fills in the directions of the rings below the horizon.
+void Sky::place_plain(const SurroundingPlain& plain) {
+    const double deepest = deepest_rad(plain);
+    plain_rays_.clear();
+    for (int ring = 1; ring <= rings_below; ++ring) {
+        // The rings crowd towards the horizon, where the plain's colour changes fastest.
+        const double share = ring / static_cast<double>(rings_below);
+        const double elevation_rad = -deepest * share * share;
+        const double across = std::cos(elevation_rad);
+        const double up = std::sin(elevation_rad);
+        for (const glm::dvec3& level : levels_) { plain_rays_.emplace_back(across * level.x, across * level.y, up); }
+    }
+}
+
+/// Fills in the places of the land's vertices, with the eye subtracted.
+void Sky::place_land(const SurroundingPlain& plain, const glm::dvec3& eye_m) {
+    land_m_.clear();
     for (const nature::Backdrop::BackdropVertex& corner : land_.vertices) {
         glm::dvec3 at_m = corner.at_m - eye_m;
         if (plain.earth_radius_m > 0.0) {
             at_m.z -= (at_m.x * at_m.x + at_m.y * at_m.y) / (2.0 * plain.earth_radius_m);
         }
-        const auto cover_code = static_cast<std::uint32_t>(std::lround(corner.cover_code));
-        const std::uint32_t colour = models::packed_colour(through_haze(haze, at_m, corner.colour)) & 0x00ffffffU;
-        *vertex++ = {glm::vec3(at_m), colour | cover_code << 24U};
+        land_m_.push_back(at_m);
     }
 }
 
-scene::TriangleDraw Sky::around(const SurroundingPlain& plain, const scene::Haze& haze, const glm::dvec3& eye_m) {
-    const double deepest = deepest_rad(plain);
+/// Fills in shown_indices_ and is_shown_: the triangles that are not outside a plane, and their vertices.
+void Sky::keep_triangles_in(const Frustum& frustum, std::size_t vertices, std::size_t indices) {
+    constexpr float margin = 1e-3F; // of the distance: far more than rounding moves a corner
+    std::array<glm::vec3, 4> inward{};
+    std::ranges::transform(frustum, inward.begin(), [](const glm::dvec3& normal) { return glm::vec3(normal); });
+    // One coordinate after the other, so that the compiler computes many vertices at once.
+    for (std::vector<float>& each : coordinates_m_) { each.resize(vertices); }
+    for (std::size_t i = 0; i < vertices; ++i) {
+        const glm::vec3& at_m = vertices_[i].position_m;
+        coordinates_m_[0][i] = at_m.x;
+        coordinates_m_[1][i] = at_m.y;
+        coordinates_m_[2][i] = at_m.z;
+    }
+    outside_.assign(vertices, 0);
+    const float* const x_m = coordinates_m_[0].data();
+    const float* const y_m = coordinates_m_[1].data();
+    const float* const z_m = coordinates_m_[2].data();
+    std::uint8_t* const outside = outside_.data();
+    for (unsigned plane = 0; plane < 4; ++plane) {
+        const glm::vec3 normal = inward[plane];
+        for (std::size_t i = 0; i < vertices; ++i) {
+            const float limit = -margin * (std::abs(x_m[i]) + std::abs(y_m[i]) + std::abs(z_m[i]));
+            const bool is_outside = normal.x * x_m[i] + normal.y * y_m[i] + normal.z * z_m[i] < limit;
+            outside[i] = static_cast<std::uint8_t>(outside[i] | unsigned{is_outside} << plane);
+        }
+    }
+    is_shown_.assign(vertices, 0);
+    shown_indices_.resize(indices);
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < indices; i += 3) {
+        const std::uint32_t* const corners = &indices_[i];
+        if ((outside[corners[0]] & outside[corners[1]] & outside[corners[2]]) != 0) { continue; }
+        for (std::size_t k = 0; k < 3; ++k) {
+            shown_indices_[count + k] = corners[k];
+            is_shown_[corners[k]] = 1;
+        }
+        count += 3;
+    }
+    shown_indices_.resize(count);
+}
+
+scene::TriangleDraw Sky::around(
+    const SurroundingPlain& plain, const scene::Haze& haze, const glm::dvec3& eye_m, const Frustum& frustum) {
     const bool has_land = !land_.vertices.empty() && plain.height_below_eye_m > 0.0;
     SurroundingPlain beyond = plain;
     if (has_land) {
         const glm::dvec2 to_edge_m = land_half_m_ - glm::abs(glm::dvec2(eye_m));
         beyond.map_edge_m = std::max(plain.map_edge_m, std::min(to_edge_m.x, to_edge_m.y));
     }
-    auto* vertex = &vertices_[std::size_t{rings_above} * sky_segments];
-    for (int ring = 1; ring <= rings_below; ++ring) {
-        // The rings crowd towards the horizon, where the plain's colour changes fastest.
-        const double share = ring / static_cast<double>(rings_below);
-        const double elevation_rad = -deepest * share * share;
-        for (int segment_index = 0; segment_index < sky_segments; ++segment_index, ++vertex) {
-            const glm::dvec3 level =
-                direction_from_heading(first_azimuth_rad_ - 2.0 * pi * segment_index / sky_segments);
-            const glm::dvec3 ray(
-                std::cos(elevation_rad) * level.x, std::cos(elevation_rad) * level.y, std::sin(elevation_rad));
-            *vertex = dome_vertex(ray, colour_below(ray, beyond, haze));
+    constexpr std::size_t first_below = std::size_t{rings_above} * sky_segments;
+    place_plain(plain);
+    for (std::size_t i = 0; i < plain_rays_.size(); ++i) {
+        vertices_[first_below + i].position_m = glm::vec3(dome_radius_m * plain_rays_[i]);
+    }
+    if (has_land) {
+        place_land(plain, eye_m);
+        for (std::size_t i = 0; i < land_m_.size(); ++i) {
+            vertices_[sky_vertices_ + i].position_m = glm::vec3(land_m_[i]);
         }
     }
-    const std::span indices(indices_);
-    if (!has_land) { return {std::span(vertices_).first(sky_vertices_), indices.first(sky_indices_)}; }
-    place_backdrop(plain, haze, eye_m);
-    return {vertices_, indices};
+    keep_triangles_in(frustum, has_land ? vertices_.size() : sky_vertices_, has_land ? indices_.size() : sky_indices_);
+    for (std::size_t i = 0; i < plain_rays_.size(); ++i) {
+        if (is_shown_[first_below + i] == 0) { continue; }
+        vertices_[first_below + i] = dome_vertex(plain_rays_[i], colour_below(plain_rays_[i], beyond, haze));
+    }
+    for (std::size_t i = 0; has_land && i < land_m_.size(); ++i) {
+        if (is_shown_[sky_vertices_ + i] == 0) { continue; }
+        const nature::Backdrop::BackdropVertex& corner = land_.vertices[i];
+        const auto cover_code = static_cast<std::uint32_t>(std::lround(corner.cover_code));
+        const std::uint32_t colour = models::packed_colour(through_haze(haze, land_m_[i], corner.colour)) & 0x00ffffffU;
+        vertices_[sky_vertices_ + i].colour = colour | cover_code << 24U;
+    }
+    return {std::span(vertices_).first(has_land ? vertices_.size() : sky_vertices_), shown_indices_};
 }
 
 namespace {
@@ -244,10 +306,12 @@ void Atmosphere::write(const FrameView& view, scene::FramePlan& plan) {
     plan.sunlight = daylight_.sunlight();
     plan.haze = haze_;
     plan.haze.visibility_m = visibility_m(eye_m.z);
+    plan.truth.first_land_vertex = sky_.first_land_vertex();
+    plan.truth.land_has_cover_codes = ground.land_cover_contrast() != nullptr;
     if (settings_.sky) {
         plan.sky = sky_.around({eye_m.z - ground.mean_height_m(), distance_to_edge_m(ground, eye_m),
                                    ground.mean_colour(), view.earth_radius_m},
-            plan.haze, eye_m);
+            plan.haze, eye_m, view.frustum);
     }
 }
 

@@ -8,6 +8,7 @@
 #include "visuals/scene/frame_plan.h"
 #include "visuals/scene/settings.h"
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -36,15 +37,25 @@ public:
     /// `land`: the relief around the map; may be empty.
     explicit Sky(const nature::Daylight& day, nature::Backdrop land = {});
 
-    /// The triangles, in painting order, stay valid until the next call. The land around the map is left out from below
-    /// its mean height.
-    scene::TriangleDraw around(const SurroundingPlain& plain, const scene::Haze& haze, const glm::dvec3& eye_m = {});
+    /// Planes through the eye, normals pointing inside; a zero normal has everything inside.
+    using Frustum = std::array<glm::dvec3, 4>;
+    static constexpr Frustum all_around{glm::dvec3(0.0), glm::dvec3(0.0), glm::dvec3(0.0), glm::dvec3(0.0)};
+
+    /// The triangles, in painting order, stay valid until the next call; those outside a plane are left out, and
+    /// vertices that none has are undefined. The land around the map is left out from below its mean height.
+    scene::TriangleDraw around(const SurroundingPlain& plain, const scene::Haze& haze, const glm::dvec3& eye_m = {},
+        const Frustum& frustum = all_around);
+
+    /// The first of the vertices that belongs to the land around the map.
+    std::size_t first_land_vertex() const { return sky_vertices_; }
 
 private:
     void add_ring_triangles(std::uint32_t upper, std::uint32_t lower, int corners);
     void add_dome(const nature::Daylight& day);
     void add_sun(const nature::Daylight& day);
-    void place_backdrop(const SurroundingPlain& plain, const scene::Haze& haze, const glm::dvec3& eye_m);
+    void place_plain(const SurroundingPlain& plain);
+    void place_land(const SurroundingPlain& plain, const glm::dvec3& eye_m);
+    void keep_triangles_in(const Frustum& frustum, std::size_t vertices, std::size_t indices);
 
     /// The azimuth at which each ring of the dome begins: the sun's.
     double first_azimuth_rad_;
@@ -54,6 +65,15 @@ private:
     /// The vertices of dome and sun, then those of the land.
     std::vector<models::ColourVertex> vertices_;
     std::vector<std::uint32_t> indices_;
+    /// The directions in which the corners of each ring of the dome lie, level.
+    std::vector<glm::dvec3> levels_;
+    // Of the last frame.
+    std::vector<glm::dvec3> plain_rays_;              ///< of the rings below the horizon
+    std::vector<glm::dvec3> land_m_;                  ///< the land's vertices
+    std::array<std::vector<float>, 3> coordinates_m_; ///< x, y and z of each vertex
+    std::vector<std::uint8_t> outside_;               ///< for each vertex a bit for each plane
+    std::vector<std::uint8_t> is_shown_;              ///< for each vertex
+    std::vector<std::uint32_t> shown_indices_;
     /// How many vertices and indices dome and sun have.
     std::size_t sky_vertices_ = 0;
     std::size_t sky_indices_ = 0;

@@ -6,8 +6,8 @@
 #include "sim/flight_models.h"
 #include "visuals/landscape/ground.h"
 #include "visuals/nature/cloud_layer.h"
-#include "visuals/planning/scene.h"
 #include "visuals/planning/placed_aircraft.h"
+#include "visuals/planning/scene.h"
 #include "visuals/planning/sky.h"
 
 #include <glm/common.hpp>
@@ -643,6 +643,7 @@ struct Transparents::Parts {
     std::vector<std::optional<AxisAlignedBox>> effect_bounds;
     std::vector<Transparent> list;
     std::vector<OrientedBox> boxes;
+    TransparentRange cloud_range;
 
     void add(Transparent::Place place, std::size_t box, const TransparentRange& range) {
         if (range.count > 0 || place == Transparent::Place::Glass) {
@@ -691,7 +692,7 @@ double height_of_clouds_m(const landscape::Ground& ground, const scene::AirSetti
 } // namespace
 
 Transparents::Transparents(const Scene& scene, const scene::Settings& settings, const nature::Daylight& day)
-    : parts_(new Parts{scene, {}, {}, 0.0, {}, {}, {}, {}, {}}) {
+    : parts_(new Parts{scene, {}, {}, 0.0, {}, {}, {}, {}, {}, {}}) {
     if (settings.air.clouds > 0.0) {
         parts_->clouds.emplace(settings.air.clouds);
         parts_->cloud_height_m = height_of_clouds_m(*scene.ground, settings.air);
@@ -717,11 +718,12 @@ void Transparents::make(
     Parts& parts = *parts_;
     parts.list.clear();
     parts.boxes.clear();
+    parts.cloud_range = {};
     parts.geometry.begin(plan.view_to_clip * plan.world_to_view, view.size_px, plan.haze);
     if (parts.clouds) {
         const auto clouds = parts.clouds->seen_from(view.camera.eye_m, parts.cloud_height_m, view.earth_radius_m);
-        parts.add(
-            Transparent::Place::CloudLayer, models::invalid_index, parts.geometry.add(clouds.vertices, clouds.indices));
+        parts.cloud_range = parts.geometry.add(clouds.vertices, clouds.indices);
+        parts.add(Transparent::Place::CloudLayer, models::invalid_index, parts.cloud_range);
     }
     parts.add_effects(view, request, fleet);
     for (std::size_t i = 0; i < fleet.bounding_boxes().size(); ++i) {
@@ -741,6 +743,8 @@ std::span<const Transparent> Transparents::list() const { return parts_->list; }
 std::span<const OrientedBox> Transparents::boxes() const { return parts_->boxes; }
 
 scene::OverlayDraw Transparents::draw() const { return parts_->geometry.draw(); }
+
+TransparentRange Transparents::clouds() const { return parts_->cloud_range; }
 
 std::optional<double> Transparents::cloud_height_m() const {
     return parts_->clouds ? std::optional(parts_->cloud_height_m) : std::nullopt;

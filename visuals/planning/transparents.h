@@ -88,6 +88,9 @@ public:
     /// The triangles of the whole list. Valid until the next frame.
     scene::OverlayDraw draw() const;
 
+    /// The triangles of the clouds; none = there are none.
+    TransparentRange clouds() const;
+
     /// The height of the clouds, which lie above all ground; nothing = there are none.
     std::optional<double> cloud_height_m() const;
 

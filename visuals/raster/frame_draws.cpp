@@ -78,12 +78,18 @@ void FrameDraws::add_step(const FrameInput& input, const PaintStep& step, DrawSt
         break;
     case PaintStep::Content::Transparent:
         style.fill = Fill::Transparent;
-        add_slice({.indices = plan.overlay.indices.subspan(step.first, step.count), .style = style});
+        style.is_cloud = step.first >= plan.truth.first_cloud_index &&
+                         step.first - plan.truth.first_cloud_index < plan.truth.cloud_index_count;
+        add_slice({.indices = plan.overlay.indices.subspan(step.first, step.count),
+            .style = style,
+            .content = PaintStep::Content::Transparent});
         break;
     case PaintStep::Content::Sky:
         style.has_detail_texture = plan.detail_texture.has_value();
-        add_slice(
-            {.indices = plan.sky.indices.subspan(step.first, step.count), .style = style, .first_vertex = first_sky_});
+        add_slice({.indices = plan.sky.indices.subspan(step.first, step.count),
+            .style = style,
+            .first_vertex = first_sky_,
+            .content = PaintStep::Content::Sky});
         break;
     case PaintStep::Content::Ground:
         add_ground(plan, plan.ground.indices.subspan(step.first, step.count), style);
@@ -103,7 +109,13 @@ void FrameDraws::add_step(const FrameInput& input, const PaintStep& step, DrawSt
             const scene::RefinedDraw& draw = plan.refined[i];
             const AircraftDrawState state{std::span(plan.parts).subspan(draw.first_part),
                 std::span(plan.smooth).subspan(draw.first_smooth), draw.tints};
-            add_mesh(std::array{draw.indices}, draw.vertices, state, style);
+            add_mesh(std::array{draw.indices}, state,
+                {.style = style,
+                    .is_aircraft = true,
+                    .content = PaintStep::Content::Refined,
+                    .of_model = draw.vertices,
+                    .first_part = draw.first_part,
+                    .object = draw.object});
         }
         break;
     }
@@ -158,22 +170,28 @@ void FrameDraws::add_aircraft(const FrameInput& input, const scene::AircraftDraw
     const AircraftDrawState state{std::span(input.plan.parts).subspan(draw.first_part),
         std::span(input.plan.smooth).subspan(draw.first_smooth), draw.tints};
     const std::span<const std::uint32_t> all(model.indices);
+    const DrawSlice slice{.style = style,
+        .is_aircraft = true,
+        .content = PaintStep::Content::Aircraft,
+        .of_model = model.vertices,
+        .first_part = draw.first_part,
+        .object = draw.object};
     if (draw.ranges.empty()) {
         const auto indices = all.subspan(draw.first_index, draw.index_count);
-        add_mesh(std::array{indices}, model.vertices, state, style);
+        add_mesh(std::array{indices}, state, slice);
         return;
     }
     ranges_.clear();
     for (const scene::IndexRange& range : draw.ranges) {
         ranges_.push_back(all.subspan(range.first_index, range.index_count));
     }
-    add_mesh(ranges_, model.vertices, state, style);
+    add_mesh(ranges_, state, slice);
 }
 
 /// Adds triangles of an aircraft. The corners between the first and the last that they name are projected once for all
 /// ranges, because an order that splits polygons may paint thousands of ranges.
-void FrameDraws::add_mesh(std::span<const std::span<const std::uint32_t>> ranges,
-    std::span<const scene::ModelVertex> vertices, const AircraftDrawState& state, const DrawStyle& style) {
+void FrameDraws::add_mesh(
+    std::span<const std::span<const std::uint32_t>> ranges, const AircraftDrawState& state, DrawSlice slice) {
     std::uint32_t min = std::numeric_limits<std::uint32_t>::max();
     std::uint32_t max = 0;
     for (const std::span<const std::uint32_t> indices : ranges) {
@@ -186,13 +204,10 @@ void FrameDraws::add_mesh(std::span<const std::span<const std::uint32_t>> ranges
         return; // no triangles
     }
     VertexBlock& block = add_block(VertexBlock::Kind::Aircraft, max - min + 1);
-    block.of_model = vertices.subspan(min, max - min + 1);
+    block.of_model = slice.of_model.subspan(min, max - min + 1);
     block.state = state;
-    DrawSlice slice{.indices = {},
-        .style = style,
-        .first_vertex = static_cast<std::int64_t>(block.first) - min,
-        .first_flat = static_cast<std::int64_t>(block.first_flat) - min,
-        .is_aircraft = true};
+    slice.first_vertex = static_cast<std::int64_t>(block.first) - min;
+    slice.first_flat = static_cast<std::int64_t>(block.first_flat) - min;
     for (const std::span<const std::uint32_t> indices : ranges) {
         slice.indices = indices;
         add_slice(slice);

@@ -17,6 +17,11 @@ namespace octant::visuals::raster {
 /// The maximum of triangles in a slice, and so in a task of one thread.
 constexpr std::size_t batch_triangles = 2048;
 
+/// Triangle::source: the number of its slice, and in the lowest bits that of the triangle in it.
+constexpr unsigned source_index_bits = 11;
+constexpr std::uint32_t source_index_mask = (1U << source_index_bits) - 1U;
+static_assert(batch_triangles <= source_index_mask + 1U);
+
 /// A frame plan, and the buffers that it refers to.
 struct FrameInput {
     const scene::FramePlan& plan;
@@ -37,12 +42,17 @@ struct VertexBlock {
 
 /// Triangles of one step.
 struct DrawSlice {
-    std::span<const std::uint32_t> indices;
-    DrawStyle style;
+    std::span<const std::uint32_t> indices{};
+    DrawStyle style{};
     // Added to an index; may be negative.
     std::int64_t first_vertex = 0; ///< gives the index among all vertices
     std::int64_t first_flat = 0;   ///< gives the index among the vertices of aircraft
     bool is_aircraft = false;
+    // What the truth of the picture needs.
+    scene::PaintStep::Content content = scene::PaintStep::Content::Ground;
+    std::span<const scene::ModelVertex> of_model{}; ///< what `indices` count in, of aircraft and refined meshes
+    std::uint32_t first_part = 0;                   ///< as scene::AircraftDraw
+    std::uint32_t object = 0;                       ///< as scene::AircraftDraw
 };
 
 /// The steps of a plan as slices in painting order, and the vertices that they index. Spans point into the plan and the
@@ -65,8 +75,8 @@ private:
     void add_ground(const scene::FramePlan& plan, std::span<const std::uint32_t> indices, DrawStyle style);
     VertexBlock& add_block(VertexBlock::Kind kind, std::size_t corners);
     void add_aircraft(const FrameInput& input, const scene::AircraftDraw& draw, const DrawStyle& style);
-    void add_mesh(std::span<const std::span<const std::uint32_t>> ranges, std::span<const scene::ModelVertex> vertices,
-        const AircraftDrawState& state, const DrawStyle& style);
+    void add_mesh(
+        std::span<const std::span<const std::uint32_t>> ranges, const AircraftDrawState& state, DrawSlice slice);
     void add_slice(const DrawSlice& slice);
 
     std::vector<VertexBlock> blocks_;

@@ -379,7 +379,7 @@ struct MiddleEdge {
     std::uint64_t slope;
 
     HWY_INLINE MiddleEdge(const Edge& edge, std::int32_t top, const glm::ivec2& first_px)
-        : x(strip_edge_x(edge, top, first_px)), slope(static_cast<std::uint64_t>(edge.slope)) {}
+        : x(edge_x(edge, top, first_px)), slope(static_cast<std::uint64_t>(edge.slope)) {}
 
     /// The strip's pixels from the first on whose middle is not left of the edge.
     HWY_INLINE std::uint32_t pixels_from() const {

@@ -6,6 +6,8 @@
 //   4 triangle_binner  runs step 1, then 2 and 3 on all threads, and sorts the triangles into tiles
 //   5 tile_painter     paints one tile, the plan's order in reverse: from the nearest triangle to the farthest
 //   6 *-inl.h          spans and texels of one triangle within a tile; tile_painter.cpp lists them
+// draw_truth() writes what the pixels show as numbers: truth_middles finds the triangles of the same lists that pixel
+// middles show, truth_surfaces computes from their planes what each pixel says.
 #include "visuals/raster/renderer.h"
 
 #include <glm/common.hpp>
@@ -26,6 +28,8 @@ constexpr int max_samples = 16;
 constexpr std::array<std::uint8_t, 4> inset_frame{20, 23, 26, 255};
 constexpr std::array<std::uint8_t, 4> inset_frame_blue_first{26, 23, 20, 255};
 constexpr int frame_rows = 360; ///< of the picture for each pixel of the frame's width
+
+constexpr float share_of_samples(std::uint16_t samples) { return static_cast<float>(samples) / 16.0F; }
 
 std::uint8_t byte_of(float share) { return static_cast<std::uint8_t>(std::clamp(share, 0.0F, 1.0F) * 255.0F + 0.5F); }
 
@@ -62,6 +66,7 @@ void Renderer::resize(const glm::ivec2& size_px, std::optional<int> wanted) {
         binner_.use(sample_pattern(samples));
     }
     size_px_ = size_px;
+    prepared_plan_ = nullptr;
     begin_picture();
 }
 
@@ -108,8 +113,13 @@ void Renderer::draw_inset(const scene::FramePlan& plan, const scene::PixelRect& 
     draw_into(plan, rect);
 }
 
-void Renderer::draw_into(const scene::FramePlan& plan, const scene::PixelRect& rect) {
+void Renderer::prepare(const scene::FramePlan& plan, const scene::PixelRect& rect) {
     binner_.prepare({plan, models_, ground_ ? &*ground_ : nullptr, {rect.width, rect.height}});
+    prepared_plan_ = rect.width == size_px_.x && rect.height == size_px_.y ? &plan : nullptr;
+}
+
+void Renderer::draw_into(const scene::FramePlan& plan, const scene::PixelRect& rect) {
+    prepare(plan, rect);
     draw_calls_ += static_cast<int>(plan.steps.size());
     const glm::ivec2 tiles = binner_.tiles();
     workers_->run(tiles.x * tiles.y, [&](int tile, int thread) {
@@ -130,6 +140,131 @@ void Renderer::draw_into(const scene::FramePlan& plan, const scene::PixelRect& r
         job.rgba = pixels_ + byte_at(rect.x + job.first_px.x, rect.y + job.first_px.y);
         job.row_bytes = std::size_t{4} * static_cast<std::size_t>(size_px_.x);
         paint_tile(job, lanes_, scratch.buffer);
+    });
+}
+
+void Renderer::prepare_truth(const scene::FramePlan& plan) { prepare(plan, {0, 0, size_px_.x, size_px_.y}); }
+
+void Renderer::draw_truth(
+    const scene::FramePlan& plan, const scene::TruthArrays& to, std::span<const glm::vec2> at_px) {
+    assert(prepared_plan_ == &plan);
+    truth_surfaces_.begin(plan, binner_.draws(), size_px_, to.flow_px != nullptr || to.previous_px != nullptr);
+    const glm::ivec2 tiles = binner_.tiles();
+    const int count = tiles.x * tiles.y;
+    const bool has_coverage = to.coverage != nullptr;
+    if (at_px.empty()) {
+        workers_->run(count, [&](int tile, int thread) {
+            TileTruth& truth = thread_scratch_[static_cast<std::size_t>(thread)]->truth;
+            find_truth(tile, thread, has_coverage, truth);
+            write_tile(tile, truth, to);
+        });
+        return;
+    }
+    while (tile_truths_.size() < static_cast<std::size_t>(count)) {
+        tile_truths_.push_back(std::make_unique<TileTruth>());
+    }
+    workers_->run(count, [&](int tile, int thread) {
+        find_truth(tile, thread, has_coverage, *tile_truths_[static_cast<std::size_t>(tile)]);
+    });
+    write_at(at_px, to);
+}
+
+/// Finds the surfaces of a tile.
+void Renderer::find_truth(int tile, int thread, bool has_coverage, TileTruth& truth) {
+    ThreadScratch& scratch = *thread_scratch_[static_cast<std::size_t>(thread)];
+    const glm::ivec2 first_px = first_px_of(tile);
+    const glm::ivec2 size_px = glm::min(glm::ivec2(tile_width, tile_height), size_px_ - first_px);
+    const auto triangles = binner_.triangles_of(tile, scratch.triangles);
+    find_middles(first_px, size_px, triangles, scratch.middles);
+    scratch.place_of.assign(triangles.size() + 1, 0);
+    truth.surfaces.clear();
+    for (int row = 0; row < size_px.y; ++row) {
+        const auto from = static_cast<std::size_t>(row) * tile_width;
+        for (std::size_t pixel = from; pixel < from + static_cast<std::size_t>(size_px.x); ++pixel) {
+            const std::uint32_t shown = scratch.middles.shown[pixel];
+            std::uint16_t& place = scratch.place_of[shown];
+            if (place == 0) {
+                truth.surfaces.push_back(shown == 0 ? truth_surfaces_.nothing()
+                                                    : truth_surfaces_.surface(triangles[shown - 1].triangle->source));
+                place = static_cast<std::uint16_t>(truth.surfaces.size());
+            }
+            truth.surface_of[pixel] = static_cast<std::uint16_t>(place - 1);
+        }
+    }
+    if (has_coverage) { count_coverage({first_px, size_px}, triangles, scratch, truth); }
+}
+
+/// Fills in TileTruth::samples.
+void Renderer::count_coverage(const std::array<glm::ivec2, 2>& box_px, std::span<const TileTriangle> triangles,
+    ThreadScratch& scratch, TileTruth& truth) const {
+    const auto& [first_px, size_px] = box_px;
+    scratch.keys.resize(triangles.size());
+    for (std::size_t i = 0; i < triangles.size(); ++i) {
+        scratch.keys[i] = truth_surfaces_.key(triangles[i].triangle->source);
+    }
+    scratch.pixel_keys.assign(TileMiddles::pixels, 0);
+    for (int row = 0; row < size_px.y; ++row) {
+        for (int column = 0; column < size_px.x; ++column) {
+            const auto pixel = static_cast<std::size_t>(row * tile_width + column);
+            scratch.pixel_keys[pixel] = TruthSurfaces::key(truth.surfaces[truth.surface_of[pixel]]);
+        }
+    }
+    TileJob job;
+    job.first_px = first_px;
+    job.size_px = size_px;
+    job.triangles = triangles;
+    count_samples(job, lanes_, {scratch.pixel_keys, scratch.keys}, scratch.buffer);
+    std::copy_n(scratch.buffer.sums[0].begin(), TileMiddles::pixels, truth.samples.begin());
+}
+
+glm::ivec2 Renderer::first_px_of(int tile) const {
+    const int across = binner_.tiles().x;
+    return glm::ivec2(tile % across, tile / across) * glm::ivec2(tile_width, tile_height);
+}
+
+void Renderer::write_tile(int tile, const TileTruth& truth, const scene::TruthArrays& to) const {
+    const glm::ivec2 first_px = first_px_of(tile);
+    const glm::ivec2 size_px = glm::min(glm::ivec2(tile_width, tile_height), size_px_ - first_px);
+    for (int row = 0; row < size_px.y; ++row) {
+        const std::uint16_t* const surface_of = truth.surface_of.data() + row * tile_width;
+        const std::size_t first = byte_at(first_px.x, first_px.y + row) / 4;
+        for (int column = 0; column < size_px.x;) {
+            int end = column + 1;
+            while (end < size_px.x && surface_of[end] == surface_of[column]) { ++end; }
+            truth_surfaces_.write(truth.surfaces[surface_of[column]], {first_px.x + column, first_px.y + row},
+                first + static_cast<std::size_t>(column), static_cast<std::size_t>(end - column), to);
+            column = end;
+        }
+        if (to.coverage == nullptr) { continue; }
+        for (int column = 0; column < size_px.x; ++column) {
+            to.coverage[first + static_cast<std::size_t>(column)] =
+                share_of_samples(truth.samples[static_cast<std::size_t>(row * tile_width + column)]);
+        }
+    }
+}
+
+/// Writes pixels that show other places of the picture, from tile_truths_.
+void Renderer::write_at(std::span<const glm::vec2> at_px, const scene::TruthArrays& to) {
+    constexpr std::size_t at_once = 4096;
+    const int across = binner_.tiles().x;
+    const auto tasks = static_cast<int>((at_px.size() + at_once - 1) / at_once);
+    workers_->run(tasks, [&](int task, int) {
+        const std::size_t first = static_cast<std::size_t>(task) * at_once;
+        for (std::size_t pixel = first; pixel < std::min(first + at_once, at_px.size()); ++pixel) {
+            const glm::vec2& at = at_px[pixel];
+            const glm::vec2 end(size_px_);
+            if (!(at.x >= -0.5F && at.y >= -0.5F && at.x < end.x - 0.5F && at.y < end.y - 0.5F)) {
+                TruthSurfaces::write_unknown(pixel, to);
+                continue;
+            }
+            const glm::ivec2 nearest = glm::min(glm::ivec2(at + 0.5F), size_px_ - 1);
+            const glm::ivec2 tile = nearest / glm::ivec2(tile_width, tile_height);
+            const glm::ivec2 in_tile = nearest - tile * glm::ivec2(tile_width, tile_height);
+            const TileTruth& truth = *tile_truths_[static_cast<std::size_t>(tile.y * across + tile.x)];
+            const auto place = static_cast<std::size_t>(in_tile.y * tile_width + in_tile.x);
+            truth_surfaces_.write(truth.surfaces[truth.surface_of[place]], glm::dvec2(at), pixel, 1, to);
+            if (to.coverage != nullptr) { to.coverage[pixel] = share_of_samples(truth.samples[place]); }
+        }
     });
 }
 

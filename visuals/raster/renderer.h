@@ -4,9 +4,16 @@
 #include "visuals/raster/lit_ground_texture.h"
 #include "visuals/raster/tile.h"
 #include "visuals/raster/triangle_binner.h"
+#include "visuals/raster/truth_middles.h"
+#include "visuals/raster/truth_surfaces.h"
 #include "visuals/scene/picture.h"
 #include "visuals/scene/renderer.h"
+#include "visuals/scene/truth.h"
 
+#include <glm/vec2.hpp>
+
+#include <array>
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -50,6 +57,18 @@ public:
     void draw(const scene::FramePlan& plan) override;
     void draw_inset(const scene::FramePlan& plan, const scene::PixelRect& rect) override;
 
+    /// In place of draw() where only the truth of a plan is wanted.
+    void prepare_truth(const scene::FramePlan& plan);
+
+    /// Writes the truth of the plan of the last draw() or prepare_truth(), which must still be there (asserted, as far
+    /// as can be seen) and have no inset. The arrays have as many pixels as the picture; they have as many as `at_px`
+    /// where this is given: for each pixel the column and row of the picture that it shows (pixel middles at whole
+    /// numbers), as those of a picture with a lens's distortion. The polygon is then that of the nearest pixel of the
+    /// picture; depth, normal and previous place are those of its plane at `at_px`, and the flow is in pixels of this
+    /// picture. Outside the picture nothing is known: sky at depth infinity, normal 0, flow NaN, coverage 0. The same
+    /// plan gives the same bytes on any number of threads and any processor.
+    void draw_truth(const scene::FramePlan& plan, const scene::TruthArrays& to, std::span<const glm::vec2> at_px = {});
+
     void finish() override {}
 
     void finish_and_read(scene::Picture& picture) override;
@@ -69,6 +88,34 @@ private:
     void begin_picture();
     std::size_t byte_at(int x, int y) const;
     void draw_into(const scene::FramePlan& plan, const scene::PixelRect& rect);
+    void prepare(const scene::FramePlan& plan, const scene::PixelRect& rect);
+
+    /// The surfaces that a tile's pixels show, each once, and for each pixel its place in that list.
+    struct TileTruth {
+        std::vector<SeenSurface> surfaces;
+        std::array<std::uint16_t, TileMiddles::pixels> surface_of;
+        std::array<std::uint16_t, TileMiddles::pixels> samples; ///< that show what the middle does, of 16
+    };
+
+    /// One for each thread.
+    struct ThreadScratch {
+        TileBuffer buffer;
+        std::vector<TileTriangle> triangles;
+        std::vector<TileTriangle> overlay;
+        // Of the truth.
+        TileMiddles middles;
+        std::vector<std::uint16_t> place_of; ///< of each triangle of the list, in TileTruth::surfaces, from 1
+        TileTruth truth;
+        std::vector<std::uint32_t> keys; ///< of the triangles of the list: TruthSurfaces::key()
+        std::vector<std::uint32_t> pixel_keys;
+    };
+
+    glm::ivec2 first_px_of(int tile) const;
+    void find_truth(int tile, int thread, bool has_coverage, TileTruth& truth);
+    void count_coverage(const std::array<glm::ivec2, 2>& box_px, std::span<const TileTriangle> triangles,
+        ThreadScratch& scratch, TileTruth& truth) const;
+    void write_tile(int tile, const TileTruth& truth, const scene::TruthArrays& to) const;
+    void write_at(std::span<const glm::vec2> at_px, const scene::TruthArrays& to);
 
     std::shared_ptr<ThreadPool> workers_;
     scene::RendererInfo info_;
@@ -80,14 +127,10 @@ private:
     std::vector<scene::ModelBuffers> models_;
     std::optional<LitGroundTexture> ground_;
 
-    /// One for each thread.
-    struct ThreadScratch {
-        TileBuffer buffer;
-        std::vector<TileTriangle> triangles;
-        std::vector<TileTriangle> overlay;
-    };
-
     std::vector<std::unique_ptr<ThreadScratch>> thread_scratch_;
+    const scene::FramePlan* prepared_plan_ = nullptr; ///< of which binner_ holds the triangles
+    TruthSurfaces truth_surfaces_;
+    std::vector<std::unique_ptr<TileTruth>> tile_truths_; ///< of all tiles, for pixels that are elsewhere
     glm::ivec2 size_px_{0};
     scene::Picture picture_;         ///< any other one between finish_and_read() and the next draw()
     std::uint8_t* pixels_ = nullptr; ///< of the picture at hand: the window's or those of picture_

@@ -64,16 +64,6 @@ HWY_INLINE LaneValues load_lanes(const std::int32_t* table) {
     return values;
 }
 
-/// Where an edge crosses the middle of a row, from a column on, 2^-32 pixel, as StripEdge::x. `top`: of the edge, 1/256
-/// pixel. `first_px`: column and row of the picture.
-HWY_INLINE std::uint64_t strip_edge_x(const Edge& edge, std::int32_t top, const glm::ivec2& first_px) {
-    // Less than the least distance of a crossing from a column's middle where it is not on it.
-    constexpr std::uint64_t on_it = std::uint64_t{1} << 10;
-    const auto rows = static_cast<std::uint64_t>(std::int64_t{first_px.y - first_row_of(top)});
-    return static_cast<std::uint64_t>(edge.x) + static_cast<std::uint64_t>(edge.slope) * rows -
-           (static_cast<std::uint64_t>(std::int64_t{first_px.x}) << 32) - on_it;
-}
-
 /// An edge in a strip of a tile, row by row.
 struct StripEdge {
     std::uint64_t x; ///< at the middle of the row, from the strip's first column, 2^-32 pixel
@@ -82,7 +72,7 @@ struct StripEdge {
 
     HWY_INLINE StripEdge(const Edge& edge, std::int32_t top, const glm::ivec2& first_px, const LaneValues& down,
         const LaneValues& round_up)
-        : x(strip_edge_x(edge, top, first_px)), slope(static_cast<std::uint64_t>(edge.slope)) {
+        : x(edge_x(edge, top, first_px)), slope(static_cast<std::uint64_t>(edge.slope)) {
         const auto slope_32nd = hn::Set(Lanes(), static_cast<std::int32_t>(edge.slope >> 21));
         for (std::size_t i = 0; i < lane_parts; ++i) {
             offsets[i] = hn::Add(hn::Mul(down[i], slope_32nd), round_up[i]);

@@ -131,6 +131,17 @@ struct TileBuffer {
     const std::uint32_t* ground_of_row(int row) const { return const_cast<TileBuffer*>(this)->ground_of_row(row); }
 };
 
+/// The input of count_samples(): for each pixel of a tile, row after row, and for each triangle of its list the number
+/// of what it belongs to.
+struct SampleKeys {
+    std::span<const std::uint32_t> of_pixels;
+    std::span<const std::uint32_t> of_triangles;
+};
+
+/// Counts the samples of each pixel that show what the pixel belongs to; what shows no triangle has the number 0.
+/// Writes the counts to TileBuffer::sums[0]. Clouds and glass count as in find_middles().
+void count_samples(const TileJob& job, const SampleLanes& lanes, const SampleKeys& keys, TileBuffer& buffer);
+
 /// Makes a tile's picture: from the nearest triangle to the farthest, each colouring the samples that nothing nearer
 /// covers.
 void paint_tile(const TileJob& job, const SampleLanes& lanes, TileBuffer& buffer);

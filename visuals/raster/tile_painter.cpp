@@ -34,7 +34,10 @@
 #include "visuals/raster/reference_rasterizer-inl.h"
 #include "visuals/raster/strip_coverage-inl.h"
 #include "visuals/raster/textured_triangle-inl.h"
+#include "visuals/raster/truth_middles.h"
 
+#include <array>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -267,6 +270,79 @@ HWY_INLINE void paint_near_to_far(const TileJob& job, const SampleLanes& lanes, 
     }
 }
 
+/// Takes the samples that TileBuffer::masks has of a triangle and that are still free, and counts them where the pixel
+/// belongs to what the triangle does.
+template <class IsShown>
+HWY_INLINE void count_covered(
+    const TileJob& job, const SampleKeys& keys, std::size_t place, TileBuffer& buffer, const IsShown& is_shown) {
+    const std::uint32_t own = keys.of_triangles[place];
+    for_each_covered(job, buffer, [&](const glm::ivec2& at, std::size_t pixel, std::uint16_t mask) HWY_ATTR {
+        const auto fresh = static_cast<std::uint16_t>(mask & ~buffer.covered[pixel]);
+        if (fresh == 0 || !is_shown(at)) { return; }
+        buffer.covered[pixel] = static_cast<std::uint16_t>(buffer.covered[pixel] | fresh);
+        if (keys.of_pixels[pixel] == own) {
+            buffer.sums[0][pixel] = static_cast<std::uint16_t>(buffer.sums[0][pixel] + std::popcount(fresh));
+        }
+        if (buffer.covered[pixel] == 0xffff) {
+            std::uint64_t& full = buffer.full[static_cast<std::size_t>(at.y)];
+            full |= std::uint64_t{1} << at.x;
+            buffer.full_rows |= std::uint32_t{(full & job.full_row()) == job.full_row()} << at.y;
+        }
+    });
+}
+
+/// Triangles `first` to `end` - 1 are a group that is drawn by depth, glass too.
+HWY_INLINE void count_group(const TileJob& job, const std::array<std::size_t, 2>& range, const SampleLanes& lanes,
+    const SampleKeys& keys, TileBuffer& buffer) {
+    const auto group = job.triangles.subspan(range[0], range[1] - range[0]);
+    const GroupBox box = box_of(group, job);
+    if (box.left > box.right || box.first_row > box.last_row) { return; }
+    clear_group(box, buffer);
+    for (std::size_t i = 0; i < group.size(); ++i) {
+        cover(group[i], job, lanes, buffer);
+        draw_by_depth(group[i], static_cast<std::uint32_t>(i + 1), job, lanes, buffer);
+    }
+    for (std::size_t i = 0; i < group.size(); ++i) {
+        cover_seen(group[i], static_cast<std::uint32_t>(i + 1), job, buffer);
+        count_covered(job, keys, range[0] + i, buffer, [](const glm::ivec2&) { return true; });
+    }
+}
+
+void CountSamples(const TileJob& job, const SampleLanes& lanes, const SampleKeys& keys, TileBuffer& buffer) {
+    buffer.covered.fill(0);
+    buffer.sums[0].fill(0);
+    buffer.full.fill(0);
+    buffer.full_rows = 0;
+    std::size_t end = job.triangles.size();
+    while (end > 0 && buffer.full_rows != job.full_rows()) {
+        std::size_t first = end - 1;
+        const Triangle& triangle = *job.triangles[first].triangle;
+        if (is_transparent_fill(job.triangles[first])) {
+            if (triangle.is_cloud) {
+                cover(job.triangles[first], job, lanes, buffer);
+                count_covered(job, keys, first, buffer,
+                    [&](const glm::ivec2& at) { return is_cloud_at(triangle, job.first_px + at); });
+            }
+        } else if (triangle.group == 0) {
+            cover(job.triangles[first], job, lanes, buffer);
+            count_covered(job, keys, first, buffer, [](const glm::ivec2&) { return true; });
+        } else {
+            const auto belongs = [&](const TileTriangle& other) HWY_ATTR {
+                return other.triangle->group == triangle.group && !is_transparent_fill(other);
+            };
+            while (first > 0 && belongs(job.triangles[first - 1])) { --first; }
+            count_group(job, {first, end}, lanes, keys, buffer);
+        }
+        end = first;
+    }
+    for (std::size_t pixel = 0; pixel < TileBuffer::pixels; ++pixel) {
+        if (keys.of_pixels[pixel] == 0) {
+            const int free = 16 - std::popcount(buffer.covered[pixel]);
+            buffer.sums[0][pixel] = static_cast<std::uint16_t>(buffer.sums[0][pixel] + free);
+        }
+    }
+}
+
 void PaintTile(const TileJob& job, const SampleLanes& lanes, TileBuffer& buffer) {
     reset(job, buffer);
     if (is_far_to_near(job, lanes)) {
@@ -288,6 +364,7 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace octant::visuals::raster {
 
+HWY_EXPORT(CountSamples);
 HWY_EXPORT(PaintTile);
 
 namespace {
@@ -301,6 +378,12 @@ bool exclude_targets_without_gfni() {
 }
 
 } // namespace
+
+void count_samples(const TileJob& job, const SampleLanes& lanes, const SampleKeys& keys, TileBuffer& buffer) {
+    static const bool may_choose = exclude_targets_without_gfni();
+    static_cast<void>(may_choose);
+    HWY_DYNAMIC_DISPATCH(CountSamples)(job, lanes, keys, buffer);
+}
 
 void paint_tile(const TileJob& job, const SampleLanes& lanes, TileBuffer& buffer) {
     static const bool may_choose = exclude_targets_without_gfni();

@@ -85,6 +85,16 @@ struct Edge {
 /// The first row of pixels whose middle is not above a place, 1/256 pixel.
 constexpr std::int32_t first_row_of(std::int32_t y) { return (y + 255) >> 8; }
 
+/// Where an edge crosses the middle of a row, from a column on, 2^-32 pixel, as Edge::x. `top`: of the edge, 1/256
+/// pixel. `first_px`: column and row of the picture.
+inline std::uint64_t edge_x(const Edge& edge, std::int32_t top, const glm::ivec2& first_px) {
+    // Less than the least distance of a crossing from a column's middle where it is not on it.
+    constexpr std::uint64_t on_it = std::uint64_t{1} << 10;
+    const auto rows = static_cast<std::uint64_t>(std::int64_t{first_px.y - first_row_of(top)});
+    return static_cast<std::uint64_t>(edge.x) + static_cast<std::uint64_t>(edge.slope) * rows -
+           (static_cast<std::uint64_t>(std::int64_t{first_px.x}) << 32) - on_it;
+}
+
 /// Red, green, blue and a fourth value over the picture: base + per_x * column + per_y * row at pixel middles,
 /// wrapping. The fourth is alpha over the picture, on the ground the number of its covers.
 struct ColourGradients {
@@ -189,6 +199,8 @@ struct Triangle {
     Fill fill = Fill::Gouraud;
     bool middle_is_left = false;     ///< the middle corner lies left of the whole edge
     bool has_detail_texture = false; ///< land cover in the fourth colour value
+    bool is_cloud = false;           ///< of those with Fill::Transparent
+    std::uint32_t source = 0;        ///< where it comes from, as frame_draws.h numbers triangles; not of the overlay
 };
 
 /// Ground with detail texture at a pixel: one over its depth, 1/m, whose lowest bits are half the number of its covers.

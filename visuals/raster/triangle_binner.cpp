@@ -42,10 +42,11 @@ ScreenVertex overlay_vertex(const scene::OverlayVertex& from) {
     return vertex;
 }
 
-/// Appends triangles of the overlay.
-void add_overlay(const scene::OverlayDraw& overlay, std::span<const std::uint32_t> indices, TriangleSetup& setup,
-    TriangleList& list) {
+/// Appends triangles of the overlay. `source`: of the first.
+void add_overlay(const scene::OverlayDraw& overlay, std::span<const std::uint32_t> indices, std::uint32_t source,
+    TriangleSetup& setup, TriangleList& list) {
     for (std::size_t i = 0; i + 2 < indices.size(); i += 3) {
+        setup.set_source(source++);
         std::array<ScreenVertex, 3> corners;
         for (std::size_t k = 0; k < 3; ++k) { corners[k] = overlay_vertex(overlay.vertices[indices[i + k]]); }
         setup.add_overlay(corners[0], corners[1], corners[2], list);
@@ -157,8 +158,9 @@ void TriangleBinner::set_up(const FrameInput& input, Batch& batch, TriangleSetup
     for (std::size_t s = batch.first; s < batch.end; ++s) {
         const DrawSlice& slice = draws_.slices()[s];
         setup.begin_step(slice.style);
+        auto source = static_cast<std::uint32_t>(s << source_index_bits);
         if (slice.style.fill == Fill::Transparent) {
-            add_overlay(plan.overlay, slice.indices, setup, batch.list);
+            add_overlay(plan.overlay, slice.indices, source, setup, batch.list);
             continue;
         }
         const VertexOutputs corners{vertices_, clip_, {}, lit_};
@@ -170,6 +172,7 @@ void TriangleBinner::set_up(const FrameInput& input, Batch& batch, TriangleSetup
             if (slice.style.fill == Fill::MeshEdges) {
                 setup.set_mesh_level(mesh_level(position_m(a), position_m(b), position_m(c), plan.sample_spacing_m));
             }
+            setup.set_source(source++);
             const FlatColour* const flat =
                 slice.is_aircraft ? &flat_[static_cast<std::size_t>(slice.first_flat + a)] : nullptr;
             setup.add(corners, {vertex(a), vertex(b), vertex(c)}, flat, batch.list);
@@ -192,7 +195,7 @@ void TriangleBinner::set_up_overlay(const FrameInput& input) {
     }
     TriangleSetup setup(projection_, input.plan, samples_, 0);
     setup.begin_step({});
-    if (first < end) { add_overlay(overlay, overlay.indices.subspan(first, end - first), setup, overlay_.list); }
+    if (first < end) { add_overlay(overlay, overlay.indices.subspan(first, end - first), 0, setup, overlay_.list); }
     bin(overlay_);
 }
 

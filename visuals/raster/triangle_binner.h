@@ -26,7 +26,7 @@ class TriangleBinner {
 public:
     TriangleBinner(const SamplePattern& samples, ThreadPool& workers) : samples_(samples), workers_(workers) {}
 
-    /// The plan's memory is not read any more after this.
+    /// The plan's memory is not read any more after this, except through draws().
     void prepare(const FrameInput& input);
 
     /// Samples of the pictures that follow.
@@ -35,6 +35,9 @@ public:
     glm::ivec2 tiles() const { return tiles_; }
 
     const Light& light() const { return light_; }
+
+    /// The slices that Triangle::source counts. They refer to the memory of the plan.
+    const FrameDraws& draws() const { return draws_; }
 
     /// For a plan with a detail texture.
     const DetailRays& detail_rays() const { return detail_rays_; }

@@ -324,6 +324,8 @@ void TriangleSetup::add_placed(
     triangle.group = style_.group;
     triangle.depth = style_.depth;
     triangle.fill = fill_;
+    triangle.is_cloud = style_.is_cloud;
+    triangle.source = source_;
     const TopDownVertices corners{top, middle, bottom, area};
     triangle.has_detail_texture =
         style_.has_detail_texture && (a.value[3] > 0.0F || b.value[3] > 0.0F || c.value[3] > 0.0F);

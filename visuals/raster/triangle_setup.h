@@ -24,6 +24,7 @@ struct DrawStyle {
     std::uint16_t group = 0; ///< depth group, from 1
     bool culls_back_faces = false;
     bool has_detail_texture = false;          ///< ground whose corners say their share of it
+    bool is_cloud = false;                    ///< of the transparent ones
     float opacity = 1.0F;                     ///< as scene::PaintStep
     std::span<const glm::vec4> clip_planes{}; ///< as scene::Clip
 };
@@ -42,6 +43,9 @@ public:
         std::size_t texture_levels);
 
     void begin_step(const DrawStyle& style) { style_ = style; }
+
+    /// Triangle::source of all triangles added from now on.
+    void set_source(std::uint32_t source) { source_ = source; }
 
     /// The level in the mesh display (FramePlan::mesh_display) of all triangles added from now on.
     void set_mesh_level(float level) { mesh_level_ = level; }
@@ -74,6 +78,7 @@ private:
     std::size_t texture_levels_ = 0;
     DrawStyle style_;
     float mesh_level_ = 0.0F;
+    std::uint32_t source_ = 0;
     bool is_overlay_ = false;
     // Of the triangle at hand.
     Fill fill_ = Fill::Gouraud;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "models/colour_vertex.h"
+#include "models/surface_class.h"
 #include "visuals/scene/detail_pattern.h"
 #include "visuals/scene/land_cover_contrast.h"
 
@@ -10,6 +11,7 @@
 #include <glm/vec4.hpp>
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -163,6 +165,8 @@ struct AircraftDraw {
     /// The word of FramePlan::smooth whose bit 0 is polygon 0.
     std::uint32_t first_smooth = 0;
     PolygonTints tints{};
+    /// The number of the aircraft in the ground truth, from 1.
+    std::uint32_t object = 0;
     /// Drawn one after the other in place of the range above, if there are any. Memory as TriangleDraw.
     std::span<const IndexRange> ranges{};
 };
@@ -178,6 +182,8 @@ struct RefinedDraw {
     /// The word of FramePlan::smooth whose bits 0 and 1 are 1 and 0.
     std::uint32_t first_smooth = 0;
     PolygonTints tints{};
+    /// As AircraftDraw::object.
+    std::uint32_t object = 0;
 };
 
 /// Triangles that lie in world axes with the eye subtracted. Memory stays with the maker of the plan until the next
@@ -186,6 +192,8 @@ struct TriangleDraw {
     std::span<const models::ColourVertex> vertices;
     /// Triangles, counter-clockwise seen from above.
     std::span<const std::uint32_t> indices;
+    /// The vertices of what stands on the ground, ascending.
+    std::span<const models::VertexRun> standing{};
 };
 
 /// A vertex of the overlay.
@@ -259,6 +267,42 @@ enum class MeshDisplay {
     Levels
 };
 
+/// The level of the water in a picture.
+struct WaterSurface {
+    /// Above the eye; nothing = there is no water.
+    std::optional<float> height_m;
+    /// The ground sinks with the square of its distance from the eye by this radius; 0 = it does not.
+    float earth_radius_m = 0.0F;
+};
+
+/// The camera and the moving parts of the previous picture of a camera.
+struct PreviousPicture {
+    glm::mat4 world_to_view{1.0F};
+    glm::mat4 view_to_clip{1.0F};
+    /// The eye less the previous eye, world axes.
+    glm::dvec3 eye_moved_m{0.0};
+    /// As FramePlan::parts with the previous eye subtracted; all zero for an aircraft that was absent.
+    std::vector<glm::mat4> parts;
+};
+
+/// What the ground truth of a picture (truth.h) must know beyond what is drawn.
+struct TruthSource {
+    WaterSurface water;
+    /// For each of FramePlan::shadow_vertices what its piece lies on, or is.
+    std::vector<models::SurfaceClass> piece_surfaces;
+    /// The first of the vertices of FramePlan::sky that belongs to the land around the map.
+    std::size_t first_land_vertex = ~std::size_t{0};
+    /// Whether the alpha of that land's vertices is 0 on water and nowhere else.
+    bool land_has_cover_codes = false;
+    /// The indices of FramePlan::overlay that are clouds, and the layer's height above the eye. The layer sinks as the
+    /// ground does.
+    std::uint32_t first_cloud_index = 0;
+    std::uint32_t cloud_index_count = 0;
+    float cloud_height_m = 0.0F;
+    /// Nothing = no flow.
+    std::optional<PreviousPicture> previous;
+};
+
 /// Everything a renderer needs for one picture, and nothing of any graphics library. The picture begins as
 /// `background`; then `steps` are drawn over it in their order. The other members are the data of the steps; data that
 /// no step names is not drawn.
@@ -285,6 +329,7 @@ struct FramePlan {
     /// polygon numbers.
     bool ground_has_polygon_numbers = false;
     std::vector<models::ColourVertex> shadow_vertices;
+    TruthSource truth;
     MeshDisplay mesh_display = MeshDisplay::None;
     /// The spacing of the ground's samples, from which levels are counted.
     float sample_spacing_m = 1.0F;

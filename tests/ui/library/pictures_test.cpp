@@ -340,7 +340,7 @@ TEST_CASE("heights, positions and notes of a world") {
     const World two({.aircraft = {"f15", "500md", "f15"}, .triangles = 1000});
     REQUIRE(two.objects().size() == 3);
     CHECK(two.objects()[0].name == "f15");
-    CHECK(two.objects()[2].name == "f15 2");
+    CHECK(two.objects()[2].name == "f15-2");
     CHECK(two.objects()[2].kind == "f15");
     CHECK((two.objects()[0].size_m.x > 15.0 && two.objects()[0].size_m.x < 25.0));
 }

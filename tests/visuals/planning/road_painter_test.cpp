@@ -58,6 +58,7 @@ struct PaintedRoads {
     std::unique_ptr<landscape::GroundMesher> mesher;
     GroundPieces pieces;
     std::vector<models::ColourVertex> vertices;
+    std::vector<models::SurfaceClass> surfaces;
     FrameView view;
     scene::TriangleDraw ground;
 
@@ -69,7 +70,7 @@ struct PaintedRoads {
         landscape::GroundCounts counts;
         view = frame_view(camera, {640, 480}, 0.0);
         ground = mesher->triangles({camera, view.aspect, 20000}, counts);
-        pieces.begin({view, *mesher, ground}, vertices);
+        pieces.begin({view, *mesher, ground}, vertices, surfaces);
         pieces.lay(roads(), most);
     }
 

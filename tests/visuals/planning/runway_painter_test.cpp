@@ -43,6 +43,7 @@ struct PaintedRunway {
         nature::runway_decoration(strip, nature::Daylight({rad_from_deg(225.0), rad_from_deg(35.0)}));
     GroundPieces pieces;
     std::vector<models::ColourVertex> vertices;
+    std::vector<models::SurfaceClass> surfaces;
     scene::TriangleDraw ground;
 
     explicit PaintedRunway(const glm::dvec3& eye_m, int most = plenty)
@@ -53,7 +54,7 @@ struct PaintedRunway {
     }
 
     void paint(const FrameView& seen, int most) {
-        pieces.begin({seen, *mesher, ground}, vertices);
+        pieces.begin({seen, *mesher, ground}, vertices, surfaces);
         pieces.lay(*runway, most);
     }
 

@@ -192,16 +192,21 @@ struct Frames {
     std::vector<float> coverage;
 };
 
-/// What a picture shows of an object.
+/// What a picture shows of an object. Pixels are counted from the upper left corner of the picture, right and down:
+/// the first pixel reaches from 0 to 1, its middle is at 0.5.
 struct Box {
     std::uint32_t object_id = 0;
-    double visible_px[4] = {};  ///< left, top, right, bottom of its visible pixels; right and bottom exclusive
-    double whole_px[4] = {};    ///< of its projected corners, also outside the picture
-    Vec3 corners_m[8];          ///< of its box, world axes; corner i has bit 0 = x, bit 1 = y, bit 2 = z of body axes
-    double visible_share = 0.0; ///< visible pixels over those it would have alone, outside the picture too
-    double truncation = 0.0;    ///< the share of these that is outside the picture
-    double distance_m = 0.0;    ///< of its middle
-    int pixels = 0;             ///< visible
+    double visible_px[4] =
+        {};                  ///< left, top, right, bottom of its visible pixels, whole numbers; 0 where there are none
+    double whole_px[4] = {}; ///< the same of its box, also outside the picture; what is behind the eye is cut off
+    /// Of its box as it is drawn, world axes: over a round earth it is sunk as the ground is. Corner i has the greater
+    /// x, y and z of the body axes where bits 0, 1 and 2 of i are set.
+    Vec3 corners_m[8] = {};
+    /// Visible pixels over those it would have alone, outside the picture, too (as far as two pictures beyond it).
+    double visible_share = 0.0;
+    double truncation = 0.0; ///< the share of these that is outside the picture
+    double distance_m = 0.0; ///< of its middle from the eye
+    int pixels = 0;          ///< visible
 };
 
 struct RenderOptions {
@@ -209,7 +214,8 @@ struct RenderOptions {
     /// The states of the aircraft: for all pictures, or one set after the other for each picture; empty = those of
     /// World::set_states().
     std::span<const State> states = {};
-    /// As `states`, in the previous picture, for the flow; empty = those before the last set_states().
+    /// As `states`, in the previous picture, for the flow; empty = those of `states` where these are given, else those
+    /// before the last World::set_states().
     std::span<const State> previous_states = {};
     std::uint64_t noise_seed = 0;
     std::uint64_t first_index = 0; ///< of the first picture: its noise is that of noise_seed and this number
@@ -261,11 +267,13 @@ public:
     /// The same into the caller's memory.
     void render(const Camera& camera, std::span<const Pose> poses, const FrameArrays& to,
         const RenderOptions& options = {}) const;
-    /// Boxes of the objects of each picture, those that are visible or partly in the picture.
+    /// Boxes of the objects of each picture, by ascending id: of those that are in it, seen or hidden by others.
     std::vector<std::vector<Box>> boxes(
         const Camera& camera, std::span<const Pose> poses, const RenderOptions& options = {}) const;
 
-    /// Writes the triangles of a picture's scene, as seen from this pose, as OBJ: a group for each class and object.
+    /// Writes the triangles of a picture's scene as OBJ, as they are drawn from this pose: over a round earth they are
+    /// sunk. World axes, metres; counter-clockwise seen from outside. A group for each class ("terrain") and for each
+    /// object ("aircraft-2": that of object id 2). Sky and clouds are left out.
     void export_scene(const std::string& path, const Camera& camera, const Pose& pose) const;
 
 private:
