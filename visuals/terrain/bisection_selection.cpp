@@ -101,9 +101,9 @@ std::uint32_t BisectionSelection::visit(const PendingNode& from) {
         PendingNode next;
         next.place = child_place(from.place, q);
         if (next.place.level <= criterion_->ground().layout().range_level()) {
-            VerticalDistances& own = distances_[static_cast<std::size_t>(next.place.level)][q];
-            own = criterion_->vertical_distances_of(next.place.level, next.place.column, next.place.row);
-            next.place.distances = &own;
+            VerticalDistances& distances = distances_[static_cast<std::size_t>(next.place.level)][q];
+            distances = criterion_->vertical_distances_of(next.place.level, next.place.column, next.place.row);
+            next.place.distances = &distances;
         }
         next.planes = children.planes[q];
         next.node_limit = criticals.quadrant[q];
