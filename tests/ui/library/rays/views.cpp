@@ -64,7 +64,7 @@ void write_lake(const std::string& file) {
 
 void make_map(const std::string& file) {
     const std::string command =
-        "\"" OCTANT_PROGRAM "\" terrain make --kind hills --size 513 --seed 7 --out \"" + file + "\" >/dev/null";
+        "\"" OCTANT_PROGRAM "\" terrain make --kind hills --size 513 --seed 7 --out \"" + file + "\" >/dev/null 2>&1";
     if (std::system(command.c_str()) != 0) { throw std::runtime_error("cannot make " + file); }
 }
 
