@@ -1,8 +1,7 @@
 #include "tests/evidence/library/tiny_picture.h"
 
+#include <TinyRenderer.h>
 #include <cstddef>
-
-#include "TinyRenderer.h"
 
 struct TinyPicture::Buffers {
     TGAImage frame;

@@ -6,6 +6,7 @@ check_dataset.py OCTANT FOLDER [NAME...]: runs the checks of these names, else a
 import hashlib
 import json
 import random
+import shutil
 import signal
 import struct
 import subprocess
@@ -347,10 +348,10 @@ def refused():
 
 
 CHECKS = {check.__name__: check for check in (npz, coco, kitti, same_bytes, killed, refused)}
-FOLDER.mkdir(parents=True, exist_ok=True)
+shutil.rmtree(FOLDER, ignore_errors=True) # data sets of an earlier program are refused
+FOLDER.mkdir(parents=True)
 (FOLDER / "cameras.toml").write_text(CAMERAS)
-if not (FOLDER / "map.tif").exists():
-    run(OCTANT, "terrain", "make", "--size", "257", "--kind", "hills", "--out", str(FOLDER / "map.tif"), "--quiet")
+run(OCTANT, "terrain", "make", "--size", "257", "--kind", "hills", "--out", str(FOLDER / "map.tif"), "--quiet")
 for name in sys.argv[3:] or CHECKS:
     begin = time.time()
     CHECKS[name]()

@@ -10,6 +10,7 @@
 #include <fstream>
 #include <span>
 #include <stdexcept>
+#include <utility>
 
 namespace octant::tests {
 
