@@ -12,6 +12,7 @@ namespace octant::ui::commands {
 
 // One function for each command, in command_NAME.cpp.
 command_line::Command compare_command();
+command_line::Command dataset_command();
 command_line::Command draw_order_command();
 command_line::Command fly_command();
 command_line::Command listen_command();

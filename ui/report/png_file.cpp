@@ -5,6 +5,7 @@
 #include "sim/base/text_file.h"
 
 #include <array>
+#include <bit>
 #include <cassert>
 #include <csetjmp>
 #include <cstdio>
@@ -75,11 +76,13 @@ bool encode(png_structp png, png_infop info, const PixelView& picture, PngEffort
     if (setjmp(png_jmpbuf(png)) != 0) { // NOLINT(cert-err52-cpp): libpng's only way out
         return false;
     }
-    png_set_IHDR(png, info, static_cast<png_uint_32>(picture.width_px), static_cast<png_uint_32>(picture.height_px), 8,
-        PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+    png_set_IHDR(png, info, static_cast<png_uint_32>(picture.width_px), static_cast<png_uint_32>(picture.height_px),
+        picture.bits, picture.channels == 1 ? PNG_COLOR_TYPE_GRAY : PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,
+        PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
     set_effort(png, effort);
     png_write_info(png, info);
     if (picture.channels == 4) { png_set_filler(png, 0, PNG_FILLER_AFTER); }
+    if (picture.bits == 16 && std::endian::native == std::endian::little) { png_set_swap(png); }
     for (int y = 0; y < picture.height_px; ++y) {
         png_write_row(png, reinterpret_cast<png_const_bytep>(picture.row(y).data()));
     }

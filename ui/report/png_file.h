@@ -9,21 +9,25 @@
 
 namespace octant::ui::report {
 
-/// An 8-bit picture that somebody else owns: rows without gaps, `channels` bytes a pixel (3 = RGB, 4 = RGBA). GL reads
-/// its bottom row first, files begin with the top row.
+/// A picture that somebody else owns: rows without gaps, `channels` values a pixel (1 = grey, 3 = RGB, 4 = RGBA) of 8
+/// or 16 bits in the processor's byte order. GL reads its bottom row first, files begin with the top row.
 struct PixelView {
     int width_px = 0;
     int height_px = 0;
     int channels = 3;
     std::span<const std::byte> bytes;
     bool bottom_row_first = false;
+    int bits = 8;
 
-    std::size_t row_bytes() const { return static_cast<std::size_t>(width_px) * static_cast<std::size_t>(channels); }
+    std::size_t row_bytes() const {
+        return static_cast<std::size_t>(width_px) * static_cast<std::size_t>(channels) *
+               static_cast<std::size_t>(bits / 8);
+    }
 
-    /// True when the sizes are positive, `channels` is 3 or 4 and `bytes` holds exactly the rows.
+    /// True when the sizes are positive, `channels` is 1, 3 or 4, `bits` 8 or 16 and `bytes` holds exactly the rows.
     bool is_whole() const {
-        return width_px > 0 && height_px > 0 && (channels == 3 || channels == 4) &&
-               bytes.size() == row_bytes() * static_cast<std::size_t>(height_px);
+        return width_px > 0 && height_px > 0 && (channels == 1 || channels == 3 || channels == 4) &&
+               (bits == 8 || bits == 16) && bytes.size() == row_bytes() * static_cast<std::size_t>(height_px);
     }
 
     /// Row `y` counted from the top.
@@ -48,8 +52,8 @@ enum class PngEffort {
     Small ///< a picture in a page: level 5
 };
 
-/// The picture as an RGB PNG (alpha is dropped). `picture.is_whole()` must hold. Same picture, same bytes. Throws Error
-/// when libpng cannot (more than a million pixels a side).
+/// The picture as a PNG, grey or RGB, of its bits (alpha is dropped). `picture.is_whole()` must hold. Same picture,
+/// same bytes. Throws Error when libpng cannot (more than a million pixels a side).
 std::string png_bytes(const PixelView& picture, PngEffort effort = PngEffort::Fast);
 
 /// png_bytes as a file, whole or not at all. Throws Error.

@@ -5,15 +5,19 @@
 #include "sim/base/output_file.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cpl_conv.h>
 #include <cpl_error.h>
 #include <cpl_string.h>
 #include <cpl_vsi.h>
 #include <fmt/format.h>
 #include <fstream>
+#include <limits>
 #include <memory>
+#include <new>
 #include <unistd.h>
 #include <utility>
+#include <zlib.h>
 
 namespace octant::ui::report {
 
@@ -203,6 +207,72 @@ std::string zip_text(const fs::path& zip, const std::string& name, std::size_t l
         }
     });
     return text;
+}
+
+namespace {
+
+/// The lowest bytes of a number, least first, as zip files have all of theirs.
+void append_number(std::string& out, std::uint64_t number, int bytes) {
+    for (int i = 0; i < bytes; ++i) { out += static_cast<char>(number >> (8 * i) & 0xffU); }
+}
+
+/// Raw deflate data at the quickest level; the same for the same bytes.
+std::string deflated(std::string_view bytes) {
+    z_stream stream{};
+    constexpr int raw_window_bits = -15;
+    constexpr int memory_level = 8;
+    if (deflateInit2(&stream, Z_BEST_SPEED, Z_DEFLATED, raw_window_bits, memory_level, Z_DEFAULT_STRATEGY) != Z_OK) {
+        throw std::bad_alloc();
+    }
+    std::string out(deflateBound(&stream, bytes.size()), '\0');
+    stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(bytes.data())); // zlib does not write there
+    stream.avail_in = static_cast<uInt>(bytes.size());
+    stream.next_out = reinterpret_cast<Bytef*>(out.data());
+    stream.avail_out = static_cast<uInt>(out.size());
+    [[maybe_unused]] const int ended = deflate(&stream, Z_FINISH);
+    assert(ended == Z_STREAM_END);
+    out.resize(stream.total_out);
+    deflateEnd(&stream);
+    return out;
+}
+
+} // namespace
+
+std::string zip_bytes(std::span<const ZipContent> entries) {
+    std::string file;
+    std::string directory;
+    for (const ZipContent& entry : entries) {
+        const std::string data = deflated(entry.bytes);
+        std::string common; // of the entry's own header and of its row in the directory
+        constexpr std::uint64_t version = 20;
+        constexpr std::uint64_t no_time = 0x00210000; // the first day that dates can name
+        append_number(common, version, 2);
+        append_number(common, 0, 2);
+        append_number(common, Z_DEFLATED, 2);
+        append_number(common, no_time, 4);
+        append_number(common,
+            crc32(0, reinterpret_cast<const Bytef*>(entry.bytes.data()), static_cast<uInt>(entry.bytes.size())), 4);
+        append_number(common, data.size(), 4);
+        append_number(common, entry.bytes.size(), 4);
+        append_number(common, entry.name.size(), 2);
+        append_number(common, 0, 2);
+        directory += "PK\x01\x02";
+        append_number(directory, version, 2);
+        directory += common;
+        append_number(directory, 0, 10); // no comment, first disk, no attributes
+        append_number(directory, file.size(), 4);
+        directory += entry.name;
+        file += "PK\x03\x04" + common + entry.name + data;
+    }
+    assert(file.size() + directory.size() < std::numeric_limits<std::uint32_t>::max());
+    std::string end = "PK\x05\x06";
+    append_number(end, 0, 4);
+    append_number(end, entries.size(), 2);
+    append_number(end, entries.size(), 2);
+    append_number(end, directory.size(), 4);
+    append_number(end, file.size(), 4);
+    append_number(end, 0, 2);
+    return file + directory + end;
 }
 
 } // namespace octant::ui::report

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -39,6 +40,16 @@ private:
     std::filesystem::path part_;
     void* zip_ = nullptr;
 };
+
+/// A name and the bytes of an entry.
+struct ZipContent {
+    std::string name;
+    std::string bytes;
+};
+
+/// A whole zip file in memory, as numpy's .npz files are; quickly compressed. Its bytes depend on names and contents
+/// only. Asserts that each entry and the whole have less than 4 GB.
+std::string zip_bytes(std::span<const ZipContent> entries);
 
 /// An entry in the directory of a zip file.
 struct ZipEntry {

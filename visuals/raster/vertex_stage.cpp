@@ -94,7 +94,7 @@ void project_aircraft(std::span<const scene::ModelVertex> from, const AircraftDr
         set_three(coloured(vertex.colour, state.tints.smooth, vertex.normal), to.vertices[i].value);
         to.flat[i].is_smooth = smooth;
         to.flat[i].is_back_facing = glm::dot(glm::mat3(turn) * vertex.face_normal, at_m) > min_turn * glm::length(at_m);
-        set_three(coloured(vertex.face_colour, state.tints.flat, vertex.face_normal), to.flat[i].rgb);
+        if (!smooth) { set_three(coloured(vertex.face_colour, state.tints.flat, vertex.face_normal), to.flat[i].rgb); }
         if (!to.lit.empty()) {
             LitVertex& lit = to.lit[i];
             set_three(glm::mat3(turn) * vertex.normal, lit.normal);

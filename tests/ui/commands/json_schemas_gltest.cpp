@@ -83,6 +83,15 @@ TEST_CASE("what recordings and their commands print is as their schemas say") {
     CHECK(tests::schema_faults(read_file(made / "two/runs/40/run.json"), schema("run")).empty());
 }
 
+TEST_CASE("what a data set's command prints and its files have is as their schemas say") {
+    const auto made = tests::empty_folder("schemas-dataset");
+    const fs::path out = made / "out";
+    check("dataset", {"dataset", "--terrain", "none", "--size", "32x24", "--count", "2", "--vary", "clouds=0:0.5",
+                         "--out", out.string(), "--quiet"});
+    CHECK(tests::schema_faults(read_file(out / "dataset.json"), schema("dataset-folder")).empty());
+    CHECK(tests::schema_faults(read_file(out / "samples/000001.json"), schema("dataset-sample")).empty());
+}
+
 TEST_CASE("what commands on models and ground print is as their schemas say") {
     const auto made = tests::empty_folder("schemas");
     const auto file = [&](const char* name) { return (made / name).string(); };
@@ -136,11 +145,11 @@ TEST_CASE("every command has --json but manual, which prints a page and completi
 
 TEST_CASE("every command that prints JSON has a schema, and all tables have one form") {
     const std::map<std::string, std::string> schemas = {{"fly", "fly"}, {"listen", "fly"}, {"report", "report"},
-        {"compare", "compare"}, {"pack", "pack"}, {"sweep", "sweep"}, {"draw-order", "draw-order"},
-        {"simplify", "simplify"}, {"mesh-error", "mesh-error"}, {"refine", "refine"}, {"model info", "model-info"},
-        {"terrain info", "terrain-info"}, {"terrain make", "terrain-make"}, {"terrain import", "terrain-import"},
-        {"terrain mesh", "terrain-mesh"}, {"terrain query", "terrain-query"}, {"terrain check", "terrain-check"},
-        {"terrain error", "tables"}, {"bench", "bench"}, {"view", "view-bench"}};
+        {"compare", "compare"}, {"pack", "pack"}, {"sweep", "sweep"}, {"dataset", "dataset"},
+        {"draw-order", "draw-order"}, {"simplify", "simplify"}, {"mesh-error", "mesh-error"}, {"refine", "refine"},
+        {"model info", "model-info"}, {"terrain info", "terrain-info"}, {"terrain make", "terrain-make"},
+        {"terrain import", "terrain-import"}, {"terrain mesh", "terrain-mesh"}, {"terrain query", "terrain-query"},
+        {"terrain check", "terrain-check"}, {"terrain error", "tables"}, {"bench", "bench"}, {"view", "view-bench"}};
     for (const std::string& command : commands_with_json(true)) {
         INFO(command);
         const auto found = schemas.find(command);
