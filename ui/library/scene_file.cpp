@@ -32,8 +32,8 @@ std::string obj_of(const scene::FramePlan& plan, const visuals::planning::Scene&
         fmt::format_to(std::back_inserter(obj), "g {}\n",
             key.second == 0 ? std::string(surface) : fmt::format("{}-{}", surface, key.second));
         for (const scene::SurfaceTriangle& triangle : triangles) {
-            for (const glm::vec3& corner : triangle.corners_m) {
-                const glm::dvec3 at_m = eye_m + glm::dvec3(corner);
+            for (const glm::dvec3& corner_m : triangle.corners_m) {
+                const glm::dvec3 at_m = eye_m + corner_m;
                 fmt::format_to(std::back_inserter(obj), "v {:.7f} {:.7f} {:.7f}\n", at_m.x, at_m.y, at_m.z);
             }
             vertices += 3;

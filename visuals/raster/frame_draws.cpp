@@ -86,6 +86,8 @@ void FrameDraws::add_step(const FrameInput& input, const PaintStep& step, DrawSt
         break;
     case PaintStep::Content::Sky:
         style.has_detail_texture = plan.detail_texture.has_value();
+        style.is_sky = true;
+        style.is_land = true;
         add_slice({.indices = plan.sky.indices.subspan(step.first, step.count),
             .style = style,
             .first_vertex = first_sky_,
@@ -143,6 +145,7 @@ void FrameDraws::add_ground(const FramePlan& plan, std::span<const std::uint32_t
     const auto is_own_colour = [&](std::size_t i) {
         return indices[i] >= own && has_own_colour(plan.shadow_vertices[indices[i] - own]);
     };
+    style.is_land = true;
     std::size_t first = 0;
     while (first < indices.size()) {
         const bool painted = has_own_colours_ && is_own_colour(first);

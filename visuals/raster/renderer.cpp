@@ -184,7 +184,7 @@ void Renderer::find_truth(int tile, int thread, bool has_coverage, TileTruth& tr
     const glm::ivec2 first_px = first_px_of(tile);
     const glm::ivec2 size_px = glm::min(glm::ivec2(tile_width, tile_height), size_px_ - first_px);
     const auto triangles = binner_.triangles_of(tile, scratch.triangles);
-    find_middles(first_px, size_px, triangles, scratch.middles);
+    find_middles(first_px, size_px, triangles, truth_surfaces_, scratch.middles);
     scratch.place_of.assign(triangles.size() + 1, 0);
     truth.surfaces.clear();
     for (int row = 0; row < size_px.y; ++row) {
@@ -207,22 +207,25 @@ void Renderer::find_truth(int tile, int thread, bool has_coverage, TileTruth& tr
 void Renderer::count_coverage(const std::array<glm::ivec2, 2>& box_px, std::span<const TileTriangle> triangles,
     ThreadScratch& scratch, TileTruth& truth) const {
     const auto& [first_px, size_px] = box_px;
-    scratch.keys.resize(triangles.size());
-    for (std::size_t i = 0; i < triangles.size(); ++i) {
-        scratch.keys[i] = truth_surfaces_.key(triangles[i].triangle->source);
+    scratch.keys.assign(1, 0);
+    scratch.place_of.clear(); // of each surface in the keys
+    for (const SeenSurface& seen : truth.surfaces) {
+        const auto found = std::ranges::find(scratch.keys, TruthSurfaces::key(seen));
+        scratch.place_of.push_back(static_cast<std::uint16_t>(found - scratch.keys.begin()));
+        if (found == scratch.keys.end()) { scratch.keys.push_back(TruthSurfaces::key(seen)); }
     }
-    scratch.pixel_keys.assign(TileMiddles::pixels, 0);
+    scratch.owners.assign(TileBuffer::pixels + TileBuffer::padding, 0);
     for (int row = 0; row < size_px.y; ++row) {
-        for (int column = 0; column < size_px.x; ++column) {
-            const auto pixel = static_cast<std::size_t>(row * tile_width + column);
-            scratch.pixel_keys[pixel] = TruthSurfaces::key(truth.surfaces[truth.surface_of[pixel]]);
+        const auto from = static_cast<std::size_t>(row) * tile_width;
+        for (std::size_t pixel = from; pixel < from + static_cast<std::size_t>(size_px.x); ++pixel) {
+            scratch.owners[pixel] = scratch.place_of[truth.surface_of[pixel]];
         }
     }
     TileJob job;
     job.first_px = first_px;
     job.size_px = size_px;
     job.triangles = triangles;
-    count_samples(job, lanes_, {scratch.pixel_keys, scratch.keys}, scratch.buffer);
+    count_samples(job, lanes_, {scratch.keys, scratch.owners, &truth_surfaces_}, scratch.buffer);
     std::copy_n(scratch.buffer.sums[0].begin(), TileMiddles::pixels, truth.samples.begin());
 }
 

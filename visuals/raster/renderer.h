@@ -110,8 +110,8 @@ private:
         TileMiddles middles;
         std::vector<std::uint16_t> place_of; ///< of each triangle of the list, in TileTruth::surfaces, from 1
         TileTruth truth;
-        std::vector<std::uint32_t> keys; ///< of the triangles of the list: TruthSurfaces::key()
-        std::vector<std::uint32_t> pixel_keys;
+        std::vector<std::uint32_t> keys;   ///< SampleOwners::keys
+        std::vector<std::uint16_t> owners; ///< SampleOwners::of_pixels
     };
 
     glm::ivec2 first_px_of(int tile) const;

@@ -15,6 +15,8 @@
 
 namespace octant::visuals::raster {
 
+class TruthSurfaces;
+
 constexpr int tile_width = 64;
 constexpr int tile_height = 32;
 
@@ -134,16 +136,18 @@ struct TileBuffer {
     const std::uint32_t* ground_of_row(int row) const { return const_cast<TileBuffer*>(this)->ground_of_row(row); }
 };
 
-/// The input of count_samples(): for each pixel of a tile, row after row, and for each triangle of its list the number
-/// of what it belongs to.
-struct SampleKeys {
-    std::span<const std::uint32_t> of_pixels;
-    std::span<const std::uint32_t> of_triangles;
+/// The input of count_samples(): what the pixels of a tile belong to.
+struct SampleOwners {
+    /// TruthSurfaces::key() of each of them, the first that of nothing.
+    std::span<const std::uint32_t> keys;
+    /// For each pixel, row after row, the place in `keys`; TileBuffer::padding more follow.
+    std::span<const std::uint16_t> of_pixels;
+    const TruthSurfaces* surfaces = nullptr;
 };
 
-/// Counts the samples of each pixel that show what the pixel belongs to; what shows no triangle has the number 0.
-/// Writes the counts to TileBuffer::sums[0]. Clouds and glass count as in find_middles().
-void count_samples(const TileJob& job, const SampleLanes& lanes, const SampleKeys& keys, TileBuffer& buffer);
+/// Counts the samples of each pixel that show what the pixel belongs to. Writes the counts to TileBuffer::sums[0].
+/// Clouds and glass count as in find_middles().
+void count_samples(const TileJob& job, const SampleLanes& lanes, const SampleOwners& owners, TileBuffer& buffer);
 
 /// Makes a tile's picture: from the nearest triangle to the farthest, each colouring the samples that nothing nearer
 /// covers.

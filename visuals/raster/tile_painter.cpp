@@ -35,7 +35,9 @@
 #include "visuals/raster/strip_coverage-inl.h"
 #include "visuals/raster/textured_triangle-inl.h"
 #include "visuals/raster/truth_middles.h"
+#include "visuals/raster/truth_surfaces.h"
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstddef>
@@ -304,17 +306,40 @@ HWY_INLINE void paint_near_to_far(const TileJob& job, const SampleLanes& lanes, 
     }
 }
 
+/// The place of a triangle's key in SampleOwners::keys. Looked up when samples of it are seen: most triangles are
+/// hidden.
+class SampleOwner {
+public:
+    SampleOwner(const SampleOwners& owners, const Triangle& triangle) : owners_(owners), source_(triangle.source) {}
+
+    /// Beyond the list for what no pixel belongs to.
+    std::uint16_t place() {
+        if (place_ == unknown) {
+            const auto found = std::ranges::find(owners_.keys, owners_.surfaces->key(source_));
+            place_ = static_cast<std::uint16_t>(found - owners_.keys.begin());
+        }
+        return place_;
+    }
+
+private:
+    static constexpr std::uint16_t unknown = 0xffff; // a tile has fewer keys
+
+    const SampleOwners& owners_;
+    std::uint32_t source_;
+    std::uint16_t place_ = unknown;
+};
+
 /// Takes the samples that TileBuffer::masks has of a triangle and that are still free, and counts them where the pixel
 /// belongs to what the triangle does.
 template <class IsShown>
-HWY_INLINE void count_covered(
-    const TileJob& job, const SampleKeys& keys, std::size_t place, TileBuffer& buffer, const IsShown& is_shown) {
-    const std::uint32_t own = keys.of_triangles[place];
+HWY_INLINE void count_covered(const TileJob& job, const SampleOwners& owners, const Triangle& triangle,
+    TileBuffer& buffer, const IsShown& is_shown) {
+    SampleOwner owner(owners, triangle);
     for_each_covered(job, buffer, [&](const glm::ivec2& at, std::size_t pixel, std::uint16_t mask) HWY_ATTR {
         const auto fresh = static_cast<std::uint16_t>(mask & ~buffer.covered[pixel]);
         if (fresh == 0 || !is_shown(at)) { return; }
         buffer.covered[pixel] = static_cast<std::uint16_t>(buffer.covered[pixel] | fresh);
-        if (keys.of_pixels[pixel] == own) {
+        if (owners.of_pixels[pixel] == owner.place()) {
             buffer.sums[0][pixel] = static_cast<std::uint16_t>(buffer.sums[0][pixel] + std::popcount(fresh));
         }
         if (buffer.covered[pixel] == 0xffff) {
@@ -325,24 +350,50 @@ HWY_INLINE void count_covered(
     });
 }
 
+/// The same of a triangle that has no depth and that no clip plane cuts, strip by strip.
+HWY_NOINLINE void count_uncut(const Triangle& triangle, const TileJob& job, const SampleLanes& lanes,
+    const SampleOwners& owners, TileBuffer& buffer) {
+    const TileBox box(triangle, job);
+    if ((box.rows() & ~buffer.full_rows) == 0) { return; }
+    SampleOwner owner(owners, triangle);
+    for (int left = box.left; left <= box.right; left += strip_px) {
+        with_parts_of_strip(box, left, [&](auto parts) HWY_ATTR {
+            const auto count = [&](int row, const auto& fresh) HWY_ATTR {
+                auto at = static_cast<std::size_t>(row * tile_width + left);
+                for (std::size_t i = 0; i < fresh.size(); ++i, at += part_px) {
+                    if (hn::AllTrue(Strip(), hn::Eq(fresh[i], hn::Zero(Strip())))) { continue; }
+                    const auto is_own =
+                        hn::Eq(hn::LoadU(Strip(), owners.of_pixels.data() + at), hn::Set(Strip(), owner.place()));
+                    std::uint16_t* const sums = buffer.sums[0].data() + at;
+                    const auto counts = hn::IfThenElseZero(is_own, hn::PopulationCount(fresh[i]));
+                    hn::StoreU(hn::Add(hn::LoadU(Strip(), sums), counts), Strip(), sums);
+                }
+            };
+            walk_strip<decltype(parts)::value>(triangle, job, lanes, box, left, buffer, count, [] {});
+        });
+    }
+}
+
 /// Triangles `first` to `end` - 1 are a group that is drawn by depth, glass too.
 HWY_INLINE void count_group(const TileJob& job, const std::array<std::size_t, 2>& range, const SampleLanes& lanes,
-    const SampleKeys& keys, TileBuffer& buffer) {
+    const SampleOwners& owners, TileBuffer& buffer) {
     const auto group = job.triangles.subspan(range[0], range[1] - range[0]);
     const GroupBox box = box_of(group, job);
     if (box.left > box.right || box.first_row > box.last_row) { return; }
     clear_group(box, buffer);
     for (std::size_t i = 0; i < group.size(); ++i) {
+        if (group[i].triangle->is_under_side) { continue; }
         cover(group[i], job, lanes, buffer);
         draw_by_depth(group[i], static_cast<std::uint32_t>(i + 1), job, lanes, buffer);
     }
     for (std::size_t i = 0; i < group.size(); ++i) {
+        if (group[i].triangle->is_under_side) { continue; }
         cover_seen(group[i], static_cast<std::uint32_t>(i + 1), job, buffer);
-        count_covered(job, keys, range[0] + i, buffer, [](const glm::ivec2&) { return true; });
+        count_covered(job, owners, *group[i].triangle, buffer, [](const glm::ivec2&) { return true; });
     }
 }
 
-void CountSamples(const TileJob& job, const SampleLanes& lanes, const SampleKeys& keys, TileBuffer& buffer) {
+void CountSamples(const TileJob& job, const SampleLanes& lanes, const SampleOwners& owners, TileBuffer& buffer) {
     buffer.covered.fill(0);
     buffer.sums[0].fill(0);
     buffer.full.fill(0);
@@ -354,23 +405,30 @@ void CountSamples(const TileJob& job, const SampleLanes& lanes, const SampleKeys
         if (is_transparent_fill(job.triangles[first])) {
             if (triangle.is_cloud) {
                 cover(job.triangles[first], job, lanes, buffer);
-                count_covered(job, keys, first, buffer,
+                count_covered(job, owners, triangle, buffer,
                     [&](const glm::ivec2& at) { return is_cloud_at(triangle, job.first_px + at); });
             }
         } else if (triangle.group == 0) {
-            cover(job.triangles[first], job, lanes, buffer);
-            count_covered(job, keys, first, buffer, [](const glm::ivec2&) { return true; });
+            const TileTriangle& one = job.triangles[first];
+            if (triangle.is_under_side) {
+                // left out, as find_middles() does
+            } else if (one.extra == nullptr || one.extra->cut_count == 0) {
+                count_uncut(triangle, job, lanes, owners, buffer);
+            } else {
+                cover(one, job, lanes, buffer);
+                count_covered(job, owners, triangle, buffer, [](const glm::ivec2&) { return true; });
+            }
         } else {
             const auto belongs = [&](const TileTriangle& other) HWY_ATTR {
                 return other.triangle->group == triangle.group && !is_transparent_fill(other);
             };
             while (first > 0 && belongs(job.triangles[first - 1])) { --first; }
-            count_group(job, {first, end}, lanes, keys, buffer);
+            count_group(job, {first, end}, lanes, owners, buffer);
         }
         end = first;
     }
     for (std::size_t pixel = 0; pixel < TileBuffer::pixels; ++pixel) {
-        if (keys.of_pixels[pixel] == 0) {
+        if (owners.of_pixels[pixel] == 0) {
             const int free = 16 - std::popcount(buffer.covered[pixel]);
             buffer.sums[0][pixel] = static_cast<std::uint16_t>(buffer.sums[0][pixel] + free);
         }
@@ -414,10 +472,10 @@ bool exclude_targets_without_gfni() {
 
 } // namespace
 
-void count_samples(const TileJob& job, const SampleLanes& lanes, const SampleKeys& keys, TileBuffer& buffer) {
+void count_samples(const TileJob& job, const SampleLanes& lanes, const SampleOwners& owners, TileBuffer& buffer) {
     static const bool may_choose = exclude_targets_without_gfni();
     static_cast<void>(may_choose);
-    HWY_DYNAMIC_DISPATCH(CountSamples)(job, lanes, keys, buffer);
+    HWY_DYNAMIC_DISPATCH(CountSamples)(job, lanes, owners, buffer);
 }
 
 void paint_tile(const TileJob& job, const SampleLanes& lanes, TileBuffer& buffer) {

@@ -164,6 +164,9 @@ enum class Fill : std::uint8_t {
 
 /// What only some triangles need.
 struct TriangleExtra {
+    /// Pieces with DepthUse::OnGround are nearer by the slope of their depth over so many pixels.
+    static constexpr double on_ground_offset_px = 1.0;
+
     AttributePlane depth;     ///< reversed: greater is nearer
     float depth_share = 1.0F; ///< times this: nearer or farther by a share of itself
     float opacity = 1.0F;     ///< as scene::PaintStep
@@ -200,6 +203,8 @@ struct Triangle {
     bool middle_is_left = false;     ///< the middle corner lies left of the whole edge
     bool has_detail_texture = false; ///< land cover in the fourth colour value
     bool is_cloud = false;           ///< of those with Fill::Transparent
+    bool is_sky = false;             ///< or land around the map
+    bool is_under_side = false;      ///< of land or sky: its back is seen. The truth leaves it out
     std::uint32_t source = 0;        ///< where it comes from, as frame_draws.h numbers triangles; not of the overlay
 };
 

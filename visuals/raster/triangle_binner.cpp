@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -158,6 +159,7 @@ void TriangleBinner::set_up(const FrameInput& input, Batch& batch, TriangleSetup
     for (std::size_t s = batch.first; s < batch.end; ++s) {
         const DrawSlice& slice = draws_.slices()[s];
         setup.begin_step(slice.style);
+        assert(s >> (32U - source_index_bits) == 0);
         auto source = static_cast<std::uint32_t>(s << source_index_bits);
         if (slice.style.fill == Fill::Transparent) {
             add_overlay(plan.overlay, slice.indices, source, setup, batch.list);

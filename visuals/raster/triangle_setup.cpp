@@ -41,7 +41,7 @@ private:
 
 // As OpenGL's polygon offset in visuals/gl: a shadow piece lies in the plane of ground triangles, but for the rounding
 // of its corners and depths.
-constexpr double towards_eye_px = 1.0;
+constexpr double towards_eye_px = TriangleExtra::on_ground_offset_px;
 constexpr double towards_eye_share = 0x1p-19; ///< of the depth
 // What is edge-on has depths without meaning and closes holes: it is pushed back.
 constexpr double edge_on_share = 0.02;
@@ -325,6 +325,8 @@ void TriangleSetup::add_placed(
     triangle.depth = style_.depth;
     triangle.fill = fill_;
     triangle.is_cloud = style_.is_cloud;
+    triangle.is_sky = style_.is_sky;
+    triangle.is_under_side = style_.is_land && doubled_area(a, b, c) > 0;
     triangle.source = source_;
     const TopDownVertices corners{top, middle, bottom, area};
     triangle.has_detail_texture =

@@ -25,6 +25,8 @@ struct DrawStyle {
     bool culls_back_faces = false;
     bool has_detail_texture = false;          ///< ground whose corners say their share of it
     bool is_cloud = false;                    ///< of the transparent ones
+    bool is_sky = false;                      ///< or land around the map
+    bool is_land = false;                     ///< ground, what lies on it, the land around the map, the sky
     float opacity = 1.0F;                     ///< as scene::PaintStep
     std::span<const glm::vec4> clip_planes{}; ///< as scene::Clip
 };

@@ -30,6 +30,7 @@ struct Tile {
     const glm::ivec2& first_px;
     const glm::ivec2& size_px;
     std::span<const TileTriangle> triangles;
+    const TruthSurfaces& surfaces;
 
     std::uint64_t full_row() const { return ~std::uint64_t{0} >> (tile_width - size_px.x); }
 
@@ -111,6 +112,7 @@ void take(const Tile& tile, int row, std::uint64_t columns, TileMiddles& middles
 
 /// A triangle that is painted without depth.
 void take_triangle(const Tile& tile, std::size_t place, TileMiddles& middles) {
+    if (tile.triangles[place].triangle->is_under_side) { return; }
     const auto name = static_cast<std::uint32_t>(place + 1);
     for_each_row(tile.triangles[place], tile, ~middles.full_rows, [&](int row, std::uint64_t columns) {
         const std::uint64_t fresh = columns & ~middles.full[static_cast<std::size_t>(row)];
@@ -137,14 +139,60 @@ void take_cloud(const Tile& tile, std::size_t place, TileMiddles& middles) {
     });
 }
 
-/// Draws a triangle of a group by depth, as draw_pixel() does.
+/// The plane of a triangle of the sky or of the land around the map, computed when it is first asked for.
+class SkyPlane {
+public:
+    SkyPlane(const Tile& tile, std::size_t place) : tile_(tile), triangle_(*tile.triangles[place].triangle) {}
+
+    /// Whether it is nearer than what a column and row of the tile show of sky and land, if anything; keeps its depth.
+    bool is_nearer(int column, int row, bool shows_any, double& land) {
+        if (!is_known_) { seen_ = tile_.surfaces.surface(triangle_.source); }
+        is_known_ = true;
+        const glm::dvec2 at(tile_.first_px + glm::ivec2(column, row));
+        const double inverse = seen_.inverse_depth_at(at);
+        if (shows_any && !(inverse > land)) { return false; }
+        land = inverse;
+        return true;
+    }
+
+private:
+    const Tile& tile_;
+    const Triangle& triangle_;
+    bool is_known_ = false;
+    SeenSurface seen_;
+};
+
+/// A triangle of the sky or of the land around the map. Its pixels stay free for others of these.
+void take_sky(const Tile& tile, std::size_t place, TileMiddles& middles) {
+    if (tile.triangles[place].triangle->is_under_side) { return; }
+    const auto name = static_cast<std::uint32_t>(place + 1);
+    SkyPlane plane(tile, place);
+    for_each_row(tile.triangles[place], tile, ~middles.full_rows, [&](int row, std::uint64_t columns) {
+        for (std::uint64_t left = columns & ~middles.full[static_cast<std::size_t>(row)]; left != 0; left &= left - 1) {
+            const int column = std::countr_zero(left);
+            const auto pixel = static_cast<std::size_t>(row * tile_width + column);
+            if (plane.is_nearer(column, row, middles.shown[pixel] != 0, middles.land[pixel])) {
+                middles.shown[pixel] = name;
+            }
+        }
+    });
+}
+
+/// Draws a triangle of a group by depth, as draw_pixel() does; but pieces on ground are no nearer than they lie, so
+/// that they hide nothing that stands close over it.
 void draw_by_depth(const Tile& tile, std::size_t place, TileMiddles& middles) {
     using Use = scene::DepthUse;
     const TileTriangle& one = tile.triangles[place];
+    if (one.triangle->is_under_side) { return; }
     const auto name = static_cast<std::uint32_t>(place + 1);
     const Use use = one.triangle->depth;
-    const auto share = static_cast<double>(one.extra->depth_share);
-    const AttributePlane& depth = one.extra->depth;
+    double share = static_cast<double>(one.extra->depth_share);
+    AttributePlane depth = one.extra->depth;
+    if (use == Use::OnGround) {
+        depth.base -= TriangleExtra::on_ground_offset_px * std::max(std::abs(depth.per_x), std::abs(depth.per_y));
+        share = 1.0;
+    }
+    SkyPlane plane(tile, place);
     const AttributePlane middle{
         depth.at(tile.first_px.x, tile.first_px.y) * share, depth.per_x * share, depth.per_y * share};
     for_each_row(one, tile, ~middles.full_rows, [&](int row, std::uint64_t columns) {
@@ -155,6 +203,10 @@ void draw_by_depth(const Tile& tile, std::size_t place, TileMiddles& middles) {
             float& before = middles.depth[pixel];
             const bool may_be_equal = use == Use::OnGround || use == Use::InfinitelyFar;
             if (use != Use::None && !(here > before || (may_be_equal && here == before))) { continue; }
+            if (one.triangle->is_sky &&
+                !plane.is_nearer(column, row, middles.nearest[pixel] != 0, middles.land[pixel])) {
+                continue;
+            }
             if (use != Use::None && use != Use::InfinitelyFar) { before = here; }
             if (use != Use::DepthOnly) { middles.nearest[pixel] = name; }
         }
@@ -201,8 +253,9 @@ bool is_cloud_at(const Triangle& triangle, const glm::ivec2& at) {
 }
 
 void find_middles(const glm::ivec2& first_px, const glm::ivec2& size_px, std::span<const TileTriangle> triangles,
-    TileMiddles& middles) {
-    const Tile tile{first_px, size_px, triangles};
+    const TruthSurfaces& surfaces, TileMiddles& middles) {
+    const Tile tile{first_px, size_px, triangles, surfaces};
+    middles.land.assign(TileMiddles::pixels, 0.0);
     middles.shown.fill(0);
     middles.full.fill(0);
     middles.full_rows = 0;
@@ -212,6 +265,8 @@ void find_middles(const glm::ivec2& first_px, const glm::ivec2& size_px, std::sp
         std::size_t first = end - 1;
         if (triangle.fill == Fill::Transparent) {
             if (triangle.is_cloud) { take_cloud(tile, first, middles); }
+        } else if (triangle.group == 0 && triangle.is_sky) {
+            take_sky(tile, first, middles);
         } else if (triangle.group == 0) {
             take_triangle(tile, first, middles);
         } else {

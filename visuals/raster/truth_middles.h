@@ -1,6 +1,7 @@
 #pragma once
 
 #include "visuals/raster/tile.h"
+#include "visuals/raster/truth_surfaces.h"
 
 #include <glm/vec2.hpp>
 
@@ -22,6 +23,8 @@ struct TileMiddles {
     /// A bit for each column whose middle shows a triangle.
     std::array<std::uint64_t, tile_height> full{};
     std::uint32_t full_rows = 0;
+    /// One over the depth of the land around the map that `shown` names, 1/m.
+    std::vector<double> land;
     // Of groups that are drawn by depth.
     std::vector<float> depth;
     std::vector<std::uint32_t> nearest; ///< as `shown`
@@ -29,9 +32,11 @@ struct TileMiddles {
 
 /// Writes TileMiddles::shown: painting order walked from near to far as paint_tile() does, with one sample in the
 /// middle of each pixel, whatever samples the picture has. Clouds count where they are opaque enough (scene/truth.h),
-/// glass as if it were opaque; other transparent triangles do not count.
+/// glass as if it were opaque; other transparent triangles do not count. Nor does land that shows its back: land in
+/// front of it covers the same pixels, but may come earlier in painting order, which orders what faces the eye. Land
+/// around the map, whose painting order is rough, goes by its planes, which `surfaces` knows.
 void find_middles(const glm::ivec2& first_px, const glm::ivec2& size_px, std::span<const TileTriangle> triangles,
-    TileMiddles& middles);
+    const TruthSurfaces& surfaces, TileMiddles& middles);
 
 /// Whether a transparent triangle that covers a pixel of the picture counts there.
 bool is_cloud_at(const Triangle& triangle, const glm::ivec2& at);

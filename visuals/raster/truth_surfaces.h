@@ -29,6 +29,10 @@ struct SeenSurface {
     std::uint32_t object = 0;
     /// Takes 1, column and row to the place in the previous picture: column * w, row * w, w.
     glm::dmat3 to_previous{0.0};
+
+    double inverse_depth_at(const glm::dvec2& at_px) const {
+        return inverse_depth.x + inverse_depth.y * at_px.x + inverse_depth.z * at_px.y;
+    }
 };
 
 /// The planes of a picture's triangles, and what pixels say of them.

@@ -29,11 +29,13 @@ bool is_water(const WaterSurface& water, const std::array<glm::vec3, 3>& corners
     if (!water.height_m) { return false; }
     const float sinks_per_m2 = water.earth_radius_m > 0.0F ? 0.5F / water.earth_radius_m : 0.0F;
     std::array<float, 3> above_m{};
+    int at_level = 0;
     for (std::size_t i = 0; i < 3; ++i) {
         const glm::vec3& at_m = corners_m[i];
         above_m[i] = at_m.z + (at_m.x * at_m.x + at_m.y * at_m.y) * sinks_per_m2 - *water.height_m;
-        if (above_m[i] > water_tolerance_m) { return false; }
+        at_level += above_m[i] <= water_tolerance_m ? 1 : 0;
     }
+    if (at_level < 2) { return false; }
     for (std::size_t i = 0; i < 3; ++i) {
         const std::size_t next = i < 2 ? i + 1 : 0;
         const glm::vec2 across_m = glm::vec2(corners_m[next]) - glm::vec2(corners_m[i]);
@@ -75,7 +77,8 @@ void visit_mesh(std::span<const ModelVertex> vertices, std::span<const std::uint
         SurfaceTriangle triangle{{}, SurfaceClass::Aircraft, object};
         for (std::size_t k = 0; k < 3; ++k) {
             const ModelVertex& vertex = vertices[indices[i + k]];
-            triangle.corners_m[k] = glm::vec3(parts[vertex.part] * glm::vec4(vertex.position_m, 1.0F));
+            triangle.corners_m[k] =
+                glm::dvec3(glm::dmat4(parts[vertex.part]) * glm::dvec4(glm::dvec3(vertex.position_m), 1.0));
         }
         visit(triangle);
     }
@@ -91,8 +94,8 @@ void for_each_surface_triangle(const FramePlan& plan, std::span<const ModelBuffe
             SurfaceTriangle triangle{{}, ground_surface(plan, &indices[i]), 0};
             for (std::size_t k = 0; k < 3; ++k) {
                 const std::size_t at = indices[i + k];
-                triangle.corners_m[k] =
-                    at < own ? plan.ground.vertices[at].position_m : plan.shadow_vertices[at - own].position_m;
+                triangle.corners_m[k] = glm::dvec3(
+                    at < own ? plan.ground.vertices[at].position_m : plan.shadow_vertices[at - own].position_m);
             }
             visit(triangle);
         }
@@ -119,7 +122,9 @@ void for_each_surface_triangle(const FramePlan& plan, std::span<const ModelBuffe
             const auto indices = plan.sky.indices.subspan(step.first, step.count);
             for (std::size_t i = 0; i + 2 < indices.size(); i += 3) {
                 const SurfaceClass surface = sky_surface(plan, &indices[i]);
-                if (surface != SurfaceClass::Sky) { visit({corners_of(plan.sky, &indices[i]), surface, 0}); }
+                if (surface == SurfaceClass::Sky) { continue; }
+                const auto [a, b, c] = corners_of(plan.sky, &indices[i]);
+                visit({{glm::dvec3(a), glm::dvec3(b), glm::dvec3(c)}, surface, 0});
             }
             break;
         }

@@ -48,7 +48,8 @@ SurfaceClass ground_surface(const FramePlan& plan, const std::uint32_t* corners)
 /// The class of a triangle of FramePlan::sky: Sky, or the land around the map.
 SurfaceClass sky_surface(const FramePlan& plan, const std::uint32_t* corners);
 
-/// Whether a triangle of ground is a part of the water's surface: all corners at its level or below, and level.
+/// Whether a triangle of ground belongs to the water: level, but for a gentle shore, with two corners or three at the
+/// water's level or below.
 bool is_water(const WaterSurface& water, const std::array<glm::vec3, 3>& corners_m);
 
 /// The class of a triangle of the ground: of what stands there, else water or terrain.
@@ -56,7 +57,7 @@ SurfaceClass surface_of(const TriangleDraw& ground, const WaterSurface& water, c
 
 /// One triangle of a plan. World axes with the eye subtracted, metres; counter-clockwise seen from outside.
 struct SurfaceTriangle {
-    std::array<glm::vec3, 3> corners_m;
+    std::array<glm::dvec3, 3> corners_m;
     SurfaceClass surface = SurfaceClass::Terrain;
     std::uint32_t object = 0;
 };

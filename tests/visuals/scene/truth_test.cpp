@@ -53,10 +53,12 @@ TEST_CASE("water sinks with the round earth, and a slope below its level is no w
     };
     CHECK(is_water(water, {sunk(20000, 0), sunk(21000, 0), sunk(20000, 1000)}));
     CHECK(is_water(water, {sunk(20000, 0, -8), sunk(21000, 0, -5), sunk(20000, 1000, -1)}));
-    CHECK_FALSE(is_water(water, {sunk(20000, 0), sunk(21000, 0, 0.2F), sunk(20000, 1000)}));
+    CHECK(is_water(water, {sunk(20000, 0), sunk(21000, 0, 3.0F), sunk(20000, 1000)}));
+    CHECK_FALSE(is_water(water, {sunk(20000, 0), sunk(21000, 0, 30.0F), sunk(20000, 1000)}));
+    CHECK_FALSE(is_water(water, {sunk(20000, 0), sunk(21000, 0, 3.0F), sunk(20000, 1000, 3.0F)}));
     CHECK_FALSE(is_water(water, {sunk(200, 0), sunk(300, 0, -2.0F), sunk(200, 100)}));
     water.earth_radius_m = 0.0F;
-    CHECK_FALSE(is_water(water, {glm::vec3(0, 0, -99.9F), glm::vec3(10, 0, -100), glm::vec3(0, 10, -100)}));
+    CHECK_FALSE(is_water(water, {glm::vec3(0, 0, -99), glm::vec3(10, 0, -100), glm::vec3(0, 10, -100)}));
 }
 
 TEST_CASE("a piece on the ground has the class that its corners have, land beyond the map by its covers") {
@@ -100,5 +102,5 @@ TEST_CASE("the triangles of a plan are visited once, without what is painted aga
     CHECK(seen[3].surface == SurfaceClass::Building);
     CHECK(seen[4].surface == SurfaceClass::Aircraft);
     CHECK(seen[4].object == 4);
-    CHECK(seen[4].corners_m[1] == glm::vec3(2, 0, 0));
+    CHECK(seen[4].corners_m[1] == glm::dvec3(2, 0, 0));
 }
