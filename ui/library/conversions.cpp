@@ -1,5 +1,6 @@
 #include "ui/library/conversions.h"
 
+#include "models/surface_class.h"
 #include "sim/base/axes.h"
 #include "sim/base/error.h"
 #include "sim/base/units.h"
@@ -23,6 +24,21 @@ namespace octant {
 namespace library = ui::library;
 
 namespace {
+
+/// The truth writes the renderer's numbers, which the public header repeats: both have to name the same classes.
+constexpr bool is_same_class(SurfaceClass shown, models::SurfaceClass drawn) {
+    return static_cast<int>(shown) == static_cast<int>(drawn);
+}
+
+static_assert(is_same_class(SurfaceClass::Sky, models::SurfaceClass::Sky) &&
+              is_same_class(SurfaceClass::Terrain, models::SurfaceClass::Terrain) &&
+              is_same_class(SurfaceClass::Water, models::SurfaceClass::Water) &&
+              is_same_class(SurfaceClass::Road, models::SurfaceClass::Road) &&
+              is_same_class(SurfaceClass::Runway, models::SurfaceClass::Runway) &&
+              is_same_class(SurfaceClass::Building, models::SurfaceClass::Building) &&
+              is_same_class(SurfaceClass::Tree, models::SurfaceClass::Tree) &&
+              is_same_class(SurfaceClass::Aircraft, models::SurfaceClass::Aircraft) &&
+              is_same_class(SurfaceClass::Cloud, models::SurfaceClass::Cloud));
 
 constexpr std::array<std::string_view, surface_class_count> surface_names{
     "sky", "terrain", "water", "road", "runway", "building", "tree", "aircraft", "cloud"};
