@@ -479,8 +479,12 @@ public:
 
     double earth_radius_m() const override { return earth_radius_m_; }
 
-    /// Meshes depend on no frame before them, but for the pages that are asked for along the eye's way.
-    void reset_detail(const MeshRequest& /*request*/) override { last_eye_m_.reset(); }
+    /// Meshes depend on no frame before them, but for the pages that are asked for along the eye's way and for the time
+    /// that it takes to find a mesh.
+    void reset_detail(const MeshRequest& /*request*/) override {
+        last_eye_m_.reset();
+        mesher_.expect_other_view();
+    }
 
     /// A second mesh ahead would take the memory of the one that is being drawn.
     void begin_next_mesh(const MeshRequest& request, const IdleThreadRunner& on_idle_thread) override {
@@ -488,11 +492,7 @@ public:
         if (std::exchange(has_mesh_begun_, true)) { return; }
         set_target(request);
         next_mesh_view_ = view_of(request);
-        const auto work = [this] {
-            make(next_mesh_view_);
-            mesher_.measure_boxes(); // here, where nobody waits for it
-        };
-        background_task_.begin(work, on_idle_thread);
+        background_task_.begin([this] { make(next_mesh_view_); }, on_idle_thread);
     }
 
     void wait() override { background_task_.wait(); }

@@ -43,6 +43,7 @@
 #include <cassert>
 #include <cmath>
 #include <cstddef>
+#include <cstring>
 #include <limits>
 
 namespace octant::visuals::terrain {
@@ -56,19 +57,18 @@ using NineBlocks = std::array<float, 9>;
 
 /// The minimum of the block's own number and those of some neighbours, indexed as VerticalDistances::squared_m2.
 std::array<float, 16> min_by_reach(const NineBlocks& of) {
+    // Of each row with no neighbour, the western one, the eastern one and both.
+    const auto row_min = [&of](std::size_t row) {
+        const Float4 west = {no_end, of[3 * row], no_end, of[3 * row]};
+        const Float4 east = {no_end, no_end, of[3 * row + 2], of[3 * row + 2]};
+        return min4(min4(west, east), splat4(of[3 * row + 1]));
+    };
+    const Float4 own = row_min(1);
+    const Float4 with_south = min4(own, row_min(0));
+    const Float4 north = row_min(2);
+    const std::array<Float4, 4> rows = {own, with_south, min4(own, north), min4(with_south, north)};
     std::array<float, 16> min{};
-    for (unsigned reach = 0; reach < 16; ++reach) {
-        const int west = (reach & 1U) != 0 ? 0 : 1;
-        const int east = (reach & 2U) != 0 ? 2 : 1;
-        const int south = (reach & 4U) != 0 ? 0 : 1;
-        const int north = (reach & 8U) != 0 ? 2 : 1;
-        min[reach] = no_end;
-        for (int row = south; row <= north; ++row) {
-            for (int column = west; column <= east; ++column) {
-                min[reach] = std::min(min[reach], of[static_cast<std::size_t>(3 * row + column)]);
-            }
-        }
-    }
+    std::memcpy(min.data(), rows.data(), sizeof(min));
     return min;
 }
 

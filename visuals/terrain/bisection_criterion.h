@@ -1,5 +1,6 @@
 #pragma once
 
+#include "sim/base/float4.h"
 #include "visuals/terrain/bisection_tiles.h"
 #include "visuals/terrain/ground_mesh.h"
 
@@ -130,18 +131,6 @@ private:
     int level_;
     int mask_;
 };
-
-/// Four numbers that are computed together, each with the result of scalar arithmetic.
-using Float4 = float __attribute__((vector_size(16)));
-
-/// The larger one of each pair.
-inline Float4 max4(Float4 a, Float4 b) { return a > b ? a : b; }
-
-/// The smaller one of each pair.
-inline Float4 min4(Float4 a, Float4 b) { return a < b ? a : b; }
-
-/// The same number four times.
-inline Float4 splat4(float each) { return Float4{each, each, each, each}; }
 
 /// Bounds the size in a picture of errors in boxes; bisection_criterion.cpp derives the bound.
 class BoxErrorBound {

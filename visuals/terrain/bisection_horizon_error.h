@@ -41,6 +41,9 @@ public:
     /// a budget, and where the horizon is in the picture.
     ErrorTarget raise_to_horizon_error(const MeshView& view, const ErrorTarget& target);
 
+    /// As BisectionSelection::expect_other_view().
+    void expect_other_view() { selection_.expect_other_view(); }
+
 private:
     ElevationBand far_ground(const MeshView& view) const;
 

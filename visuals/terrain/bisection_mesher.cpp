@@ -69,7 +69,6 @@ GroundMesh BisectionMesher::mesh(const MeshView& view, const ErrorTarget& target
     eye_ = glm::dvec2(-criterion_.west_m(), -criterion_.south_m()) / ground_->spacing_m();
     counters_ = {};
     counters_.nodes_visited = selection_.nodes_tested();
-    has_drawn_heights_ = false;
     std::swap(vertices_, last_vertices_);
     std::swap(indices_, last_indices_);
     reserve();
@@ -82,6 +81,11 @@ GroundMesh BisectionMesher::mesh(const MeshView& view, const ErrorTarget& target
     return mesh_;
 }
 
+void BisectionMesher::expect_other_view() {
+    selection_.expect_other_view();
+    horizon_.expect_other_view();
+}
+
 /// Reserves memory for five vertices and eight triangles for each node, and for the root's corners.
 void BisectionMesher::reserve() {
     const std::size_t count = nodes_.size();
@@ -91,6 +95,7 @@ void BisectionMesher::reserve() {
     if (triangle_ranges_.size() < count) {
         triangle_ranges_.resize(count + count / 4);
         middle_vertex_.resize(triangle_ranges_.size());
+        drawn_heights_.resize(triangle_ranges_.size());
     }
     std::fill_n(middle_vertex_.begin(), count, Four{});
     vertex_count_ = 0;
@@ -191,19 +196,29 @@ void BisectionMesher::emit(EmittedFan& fan) {
     }
     counters_.fans += is_cut ? (index_count_ > before ? 1 : 0) : (triangles != 0 ? 1 : 0);
     triangle_ranges_[fan.node].end = static_cast<std::uint32_t>(index_count_ / 3);
+    drawn_heights_[fan.node] = fan.heights;
+}
+
+inline void BisectionMesher::add_height(std::uint32_t vertex, DrawnHeights& heights) const {
+    const float z_m = vertices_[vertex].position_m.z;
+    heights.lowest_m = std::min(heights.lowest_m, z_m);
+    heights.highest_m = std::max(heights.highest_m, z_m);
 }
 
 /// Puts one part of a fan into the mesh: a triangle, or the fan of a child.
-inline void BisectionMesher::emit_part(const EmittedFan& fan, unsigned part) {
+inline void BisectionMesher::emit_part(EmittedFan& fan, unsigned part) {
     if (part >= first_child_part) {
         EmittedFan child = child_of(fan, part - first_child_part);
         emit(child);
+        fan.heights.lowest_m = std::min(fan.heights.lowest_m, child.heights.lowest_m);
+        fan.heights.highest_m = std::max(fan.heights.highest_m, child.heights.highest_m);
         return;
     }
     std::uint32_t* const corner = indices_.data() + index_count_;
     corner[0] = fan.ring[centre_of_ring];
     corner[1] = fan.ring[part_sides[part].from];
     corner[2] = fan.ring[part_sides[part].to];
+    for (std::size_t k = 0; k < 3; ++k) { add_height(corner[k], fan.heights); }
     index_count_ += 3;
 }
 
@@ -219,7 +234,7 @@ void BisectionMesher::reserve_border() {
 }
 
 /// Puts what the field's border leaves of a triangle of a fan into the mesh.
-void BisectionMesher::emit_part_within_border(const EmittedFan& fan, const FanSamples& samples, unsigned part) {
+void BisectionMesher::emit_part_within_border(EmittedFan& fan, const FanSamples& samples, unsigned part) {
     const auto corner = [&](std::size_t place) {
         const std::uint32_t vertex = fan.ring[place];
         return ClipVertex{samples.padded_ring(place), vertices_[vertex].position_m.z, vertex};
@@ -229,6 +244,7 @@ void BisectionMesher::emit_part_within_border(const EmittedFan& fan, const FanSa
     if (left.count < 3) { return; }
     for (unsigned k = 0; k < left.count; ++k) {
         if (left.corner[k].vertex == ClipVertex::no_vertex) { left.corner[k].vertex = border_vertex(left.corner[k]); }
+        add_height(left.corner[k].vertex, fan.heights);
     }
     // Back to front: a line from the first corner separates adjacent triangles.
     const glm::dvec2 first(left.corner[0].at.column, left.corner[0].at.row);
@@ -322,18 +338,7 @@ inline std::uint32_t BisectionMesher::add_midpoint(
 // accepted or skipped by the box around what is drawn.
 
 void BisectionMesher::triangles_in(const BoxTest& wanted, std::vector<std::uint32_t>& triangles) const {
-    if (has_mesh_) {
-        measure_boxes();
-        add_triangles_in(root_node, wanted, triangles);
-    }
-}
-
-void BisectionMesher::measure_boxes() const {
-    if (has_mesh_ && !has_drawn_heights_) {
-        drawn_heights_.resize(nodes_.size());
-        measure_drawn_heights(root_node);
-        has_drawn_heights_ = true;
-    }
+    if (has_mesh_) { add_triangles_in(root_node, wanted, triangles); }
 }
 
 /// The children of a node that are drawn; 0 for the others.
@@ -341,29 +346,6 @@ BisectionMesher::Four BisectionMesher::drawn_children(const BisectionNode& node)
     Four children = node.child;
     for (unsigned q = 0; q < 4; ++q) { children[q] = is_drawn(node, q) ? children[q] : 0; }
     return children;
-}
-
-/// Fills in drawn_heights_ for a node and all nodes below it.
-void BisectionMesher::measure_drawn_heights(std::uint32_t node) const {
-    DrawnHeights heights;
-    const auto add = [&](float lowest_m, float highest_m) {
-        heights.lowest_m = std::min(heights.lowest_m, lowest_m);
-        heights.highest_m = std::max(heights.highest_m, highest_m);
-    };
-    for_each_in_range(
-        triangle_ranges_[node], drawn_children(nodes_[node]),
-        [&](std::uint32_t child) { return triangle_ranges_[child]; },
-        [&](std::uint32_t triangle) {
-            for (std::size_t k = 3 * std::size_t{triangle}; k < 3 * std::size_t{triangle} + 3; ++k) {
-                const float z_m = vertices_[indices_[k]].position_m.z;
-                add(z_m, z_m);
-            }
-        },
-        [&](std::uint32_t child) {
-            measure_drawn_heights(child);
-            add(drawn_heights_[child].lowest_m, drawn_heights_[child].highest_m);
-        });
-    drawn_heights_[node] = heights;
 }
 
 void BisectionMesher::add_triangles_in(

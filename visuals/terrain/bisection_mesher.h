@@ -56,15 +56,14 @@ public:
     /// The vertices of the last mesh, so that their colours can be set.
     std::span<models::ColourVertex> vertices() { return std::span(vertices_).first(vertex_count_); }
 
-    /// Computes the boxes that triangles_in() needs, in advance. It does not read colours.
-    void measure_boxes() const;
+    /// Says that the next view has nothing in common with the last one. Only saves time: the mesh is the same.
+    void expect_other_view();
 
     /// Decides whether the triangles in a box (world axes, metres) are wanted.
     using BoxTest = std::function<bool(const glm::dvec3& min_m, const glm::dvec3& max_m)>;
 
     /// Appends the numbers of some triangles of the last mesh, ascending: those of the nodes for which `wanted` accepts
-    /// the box around all of their triangles as drawn, and also accepts those of all their ancestors. Not to be called
-    /// from two threads at a time.
+    /// the box around all of their triangles as drawn, and also accepts those of all their ancestors.
     void triangles_in(const BoxTest& wanted, std::vector<std::uint32_t>& triangles) const;
 
     const GroundTiles& ground() const { return *ground_; }
@@ -89,6 +88,8 @@ private:
         std::uint32_t parent_a; ///< An end of the edge whose middle the centre is.
         std::uint32_t parent_b;
         Four beyond; ///< The nodes beyond fan_edges; 0 = none.
+        /// Of the triangles that are in the mesh so far, those of the nodes below included.
+        DrawnHeights heights;
     };
 
     /// A vertex before it is made.
@@ -113,9 +114,9 @@ private:
     float weight_of(float critical, const ShareBelow& share_below) const;
     std::uint32_t add_vertex(const NewVertex& made);
     void emit(EmittedFan& fan);
-    void emit_part(const EmittedFan& fan, unsigned part);
+    void emit_part(EmittedFan& fan, unsigned part);
     void reserve_border();
-    void emit_part_within_border(const EmittedFan& fan, const FanSamples& samples, unsigned part);
+    void emit_part_within_border(EmittedFan& fan, const FanSamples& samples, unsigned part);
     std::uint32_t border_vertex(const ClipVertex& corner);
     EmittedFan child_of(const EmittedFan& fan, unsigned quadrant);
     void add_centre(const FanSamples& samples, std::int16_t height, EmittedFan& fan);
@@ -123,7 +124,7 @@ private:
     std::uint32_t add_midpoint(const FanSamples& samples, std::int16_t height, const EmittedFan& fan, std::size_t edge);
     bool is_drawn(const BisectionNode& node, unsigned quadrant) const;
     Four drawn_children(const BisectionNode& node) const;
-    void measure_drawn_heights(std::uint32_t node) const;
+    void add_height(std::uint32_t vertex, DrawnHeights& heights) const;
     void add_triangles_in(std::uint32_t node, const BoxTest& wanted, std::vector<std::uint32_t>& triangles) const;
 
     const GroundTiles* ground_;
@@ -138,9 +139,8 @@ private:
     std::span<const BisectionNode> nodes_;
     /// For each node the vertices of its mid-points; 0 = none yet.
     std::vector<Four> middle_vertex_;
-    std::vector<TriangleRange> triangle_ranges_;      ///< For each node that is in the mesh.
-    mutable std::vector<DrawnHeights> drawn_heights_; ///< For each node that is in the mesh.
-    mutable bool has_drawn_heights_ = false;
+    std::vector<TriangleRange> triangle_ranges_; ///< For each node that is in the mesh.
+    std::vector<DrawnHeights> drawn_heights_;    ///< For each node that is in the mesh.
     float limit_ = 0.0F;
     float morph_limit_ = 0.0F;          ///< Equal to limit_, or infinite without geomorphs.
     double height_base_m_ = 0.0;        ///< The height of the stored number 0, relative to the eye.

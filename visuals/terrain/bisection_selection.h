@@ -64,6 +64,9 @@ public:
     /// triangles than allowed. The root's fan is always in the mesh.
     float limit_for(const ErrorTarget& target);
 
+    /// Says that the next view has nothing in common with the last one. Only saves time: the result is the same.
+    void expect_other_view() { is_other_view_ = true; }
+
     /// At least the nodes of all meshes up to the limit that was found, parents before children. Entry 0 stands for no
     /// node; entry 1 is the root.
     std::span<const BisectionNode> nodes() const { return std::span(nodes_).first(count_); }
@@ -71,42 +74,45 @@ public:
     int nodes_tested() const { return nodes_tested_; }
 
 private:
-    /// A node to visit.
-    struct PendingNode {
-        NodeContext place;
-        unsigned planes = 0;     ///< The frustum planes that it may reach beyond.
-        float node_limit = 0.0F; ///< The critical value of its centre.
-        float error_m = 0.0F;    ///< The error of its centre.
-        int replaced = 0;        ///< How many triangles of its parent it replaces.
+    /// A node that is to be collected.
+    struct NewNode {
+        NodeContext place;         ///< `distances` is not set.
+        std::size_t distances = 0; ///< Those of its parent.
+        unsigned planes = 0;       ///< The frustum planes that it may reach beyond.
+        float node_limit = 0.0F;   ///< The critical value of its centre.
+        float error_m = 0.0F;      ///< The error of its centre.
+        int replaced = 0;          ///< How many triangles of its parent it replaces.
     };
 
-    /// The visibility of the children of a node.
-    struct Children {
-        std::array<unsigned, 4> planes{};
-        unsigned hidden = 0;
+    /// What is known of a collected node for counting it and for collecting its children.
+    struct NodeState {
+        Float4 quadrant_error_m{};
+        std::array<std::uint8_t, 4> planes{};      ///< Those that the children may reach beyond.
+        std::array<std::uint8_t, 4> of_quadrant{}; ///< The triangles that a child replaces.
+        std::uint32_t distances = 0;               ///< The index of its VerticalDistances.
+        std::uint8_t replaced = 0;
+        bool is_cut = false; ///< By the field's border.
     };
 
-    void start(float high);
-    PendingNode root_visit() const;
-    std::size_t next_node();
+    void start();
+    std::uint32_t collect(const NewNode& made);
     template <bool counting>
-    std::uint32_t visit(const PendingNode& from);
-    static NodeContext child_place(const NodeContext& place, unsigned quadrant);
+    bool walk(float high, int max_triangles);
+    void collect_child(std::uint32_t parent, unsigned quadrant);
     bool is_cut(const GroundLayout::Level& at, const NodeContext& place) const;
-    void test_children(const PendingNode& from, Children& children);
-    void count(const PendingNode& from, const BisectionNode& node, std::array<int, 4>& replaced);
+    unsigned test_children(const NewNode& made, const VerticalDistances& distances, NodeState& state);
+    bool count(std::uint32_t own, float high);
 
     const BisectionCriterion* criterion_;
     std::vector<BisectionNode> nodes_;
+    std::vector<NodeState> states_; ///< Of nodes_.
     std::size_t count_ = 0;
     StepFunction steps_;
-    std::array<std::array<VerticalDistances, 4>, 16> distances_; ///< By level and quadrant, during a walk.
-    float high_ = 0.0F;
+    std::vector<VerticalDistances> distances_; ///< Of the collected nodes of levels with height ranges.
     /// With geomorphs a vertex is drawn off its sample, by at most the error of the centre of its node's parent. The
     /// box of a node is then larger by that error when it is tested against the frustum.
     bool geomorphs_ = false;
-    int max_triangles_ = 0;        ///< A walk stops once it has counted more.
-    bool has_steps_above_ = false; ///< Something visible appears only above high_.
+    bool is_other_view_ = true;
     int nodes_tested_ = 0;
     double last_error_px_ = 0.0; ///< 0 before the first call.
 };

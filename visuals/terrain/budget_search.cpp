@@ -13,6 +13,7 @@ void StepFunction::start(float low, float high) {
     low_ = low;
     high_ = high;
     total_ = 0;
+    rise_ = 0;
     below_ = 0;
     decrease_below_ = 0;
     steps_.clear();
@@ -29,19 +30,20 @@ std::size_t StepFunction::bin_of(float place) const {
 
 std::optional<float> StepFunction::first_above(int limit) {
     assert(below_ <= limit);
-    change_.fill(0);
-    rise_.fill(0);
+    if (rise_ <= limit) { return std::nullopt; }
+    change_of_bin_.fill(0);
+    rise_of_bin_.fill(0);
     for (const Step& step : steps_) {
         const std::size_t bin = bin_of(step.place);
-        change_[bin] += step.change;
-        rise_[bin] += std::max(step.change, 0);
+        change_of_bin_[bin] += step.change;
+        rise_of_bin_[bin] += std::max(step.change, 0);
     }
     int count = below_;
     for (std::size_t bin = 0; bin < bins; ++bin) {
-        if (count + rise_[bin] > limit) {
+        if (count + rise_of_bin_[bin] > limit) {
             if (const auto place = first_above_in(bin, count, limit)) { return place; }
         }
-        count += change_[bin];
+        count += change_of_bin_[bin];
     }
     return std::nullopt;
 }

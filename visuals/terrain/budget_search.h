@@ -20,6 +20,7 @@ public:
     /// Adds a step at a place below high.
     void add(float place, int change) {
         total_ += change;
+        rise_ += std::max(change, 0);
         if (place < low_) {
             below_ += change;
             decrease_below_ += change < 0 ? -change : 0;
@@ -47,7 +48,7 @@ private:
         int change;
     };
 
-    static constexpr std::size_t bins = 4096;
+    static constexpr std::size_t bins = 1024;
 
     std::size_t bin_of(float place) const;
     std::optional<float> first_above_in(std::size_t bin, int count, int limit);
@@ -56,12 +57,13 @@ private:
     float high_ = 0.0F;
     unsigned bin_shift_ = 0;
     int total_ = 0;
+    int rise_ = 0; ///< The sum of all changes above zero.
     int below_ = 0;
     int decrease_below_ = 0;
     std::vector<Step> steps_;
     std::vector<Step> steps_of_bin_;
-    std::array<int, bins> change_{};
-    std::array<int, bins> rise_{}; ///< The sum of the changes above zero.
+    std::array<int, bins> change_of_bin_{};
+    std::array<int, bins> rise_of_bin_{}; ///< The sum of the changes above zero.
 };
 
 /// A search for the limit at which a mesh has a given number of triangles N.
