@@ -127,6 +127,42 @@ float GroundTiles::height_m(int column, int row) const {
     return height_m(level, part, column >> (zeros + 1), row >> (zeros + 1));
 }
 
+void GroundTiles::copy_row(int row, std::span<float> heights_m) const {
+    assert(row >= 0 && row < rows() && heights_m.size() == static_cast<std::size_t>(columns()));
+    // A level has the odd samples of the rows that are left to it, and all samples of its odd rows.
+    for (int level = levels() - 1; level >= 0; --level, row /= 2) {
+        copy_parts(level, row % 2 == 0 ? NodePart::South : NodePart::Centre, row / 2, heights_m);
+        if (row % 2 != 0) {
+            copy_parts(level, NodePart::West, row / 2, heights_m);
+            return;
+        }
+    }
+    const auto east = static_cast<std::size_t>(layout_.level(0).edge);
+    heights_m[0] = corner_m(row != 0 ? 2U : 0U);
+    if (east < heights_m.size()) { heights_m[east] = corner_m(row != 0 ? 3U : 1U); }
+}
+
+/// Copies the heights of one part of all nodes of a level's row, which may be the one beyond the last, to the places of
+/// their samples.
+void GroundTiles::copy_parts(int level, NodePart part, int row, std::span<float> heights_m) const {
+    const GroundLayout::Level& at = layout_.level(level);
+    const int edge = at.edge;
+    const int first = part == NodePart::West ? 0 : edge / 2;
+    const int nodes = (columns() - first + edge - 1) / edge;
+    for (int column = 0; column < nodes;) {
+        float* to = &heights_m[static_cast<std::size_t>(first + column * edge)];
+        if (row == at.rows || column == at.columns) {
+            *to = height_m(level, part, column, row);
+            ++column;
+            continue;
+        }
+        const std::int16_t* const stored =
+            heights_at(valid_tile(level, column, row) + at.height_offset(part, at.node_in_tile(column, row)));
+        const int end = std::min({nodes, at.columns, ((column >> at.tile_shift) + 1) << at.tile_shift});
+        for (int k = 0; column < end; ++k, ++column, to += edge) { *to = height_of(stored[k]); }
+    }
+}
+
 glm::dvec2 GroundTiles::half_extent_m() const {
     return {0.5 * (columns() - 1) * spacing_m(), 0.5 * (rows() - 1) * spacing_m()};
 }

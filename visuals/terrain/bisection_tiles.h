@@ -296,6 +296,9 @@ public:
     /// The height of any sample (asserted to be one).
     float height_m(int column, int row) const;
 
+    /// The heights of all samples of a row, from west to east, at a tenth of the cost of asking for each.
+    void copy_row(int row, std::span<float> heights_m) const;
+
     /// Half the extent of the field from its centre, east and north, metres.
     glm::dvec2 half_extent_m() const;
 
@@ -325,6 +328,8 @@ private:
             memory_.data() + at.ranges)[static_cast<std::size_t>(row) * static_cast<std::size_t>(at.columns) +
                                         static_cast<std::size_t>(column)];
     }
+
+    void copy_parts(int level, NodePart part, int row, std::span<float> heights_m) const;
 
     /// The offset of a node's tile, which may then be read.
     std::size_t valid_tile(int level, int column, int row) const {

@@ -6,7 +6,9 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
+#include <cstddef>
 #include <optional>
+#include <span>
 
 namespace octant::visuals::terrain {
 
@@ -14,14 +16,27 @@ namespace octant::visuals::terrain {
 class GroundSamples {
 public:
     explicit GroundSamples(const models::heights::HeightField& field)
-        : GroundSamples(field, field.highest_m(), [](const void* ground, int column, int row) {
-              return static_cast<const models::heights::HeightField*>(ground)->height_m(column, row);
-          }) {}
+        : GroundSamples(
+              field, field.highest_m(),
+              [](const void* ground, int column, int row) {
+                  return static_cast<const models::heights::HeightField*>(ground)->height_m(column, row);
+              },
+              [](const void* ground, int row, std::span<float> heights_m) {
+                  const auto& of = *static_cast<const models::heights::HeightField*>(ground);
+                  for (int column = 0; column < of.columns(); ++column) {
+                      heights_m[static_cast<std::size_t>(column)] = of.height_m(column, row);
+                  }
+              }) {}
 
     explicit GroundSamples(const GroundTiles& tiles)
-        : GroundSamples(tiles, tiles.metadata().highest_m, [](const void* ground, int column, int row) {
-              return static_cast<const GroundTiles*>(ground)->height_m(column, row);
-          }) {}
+        : GroundSamples(
+              tiles, tiles.metadata().highest_m,
+              [](const void* ground, int column, int row) {
+                  return static_cast<const GroundTiles*>(ground)->height_m(column, row);
+              },
+              [](const void* ground, int row, std::span<float> heights_m) {
+                  static_cast<const GroundTiles*>(ground)->copy_row(row, heights_m);
+              }) {}
 
     int columns() const { return columns_; }
 
@@ -38,6 +53,9 @@ public:
     /// The height of a sample. Column and row must be within the grid.
     double height_m(int column, int row) const { return static_cast<double>(height_(ground_, column, row)); }
 
+    /// The heights of all samples of a row, from west to east: for many at a time.
+    void copy_row(int row, std::span<float> heights_m) const { copy_row_(ground_, row, heights_m); }
+
     /// The world position of a sample.
     glm::dvec3 sample_m(int column, int row) const {
         return {column * spacing_m_ - half_extent_m_.x, row * spacing_m_ - half_extent_m_.y, height_m(column, row)};
@@ -50,14 +68,17 @@ public:
 
 private:
     using Height = float (*)(const void* ground, int column, int row);
+    using CopyRow = void (*)(const void* ground, int row, std::span<float> heights_m);
 
     template <class Ground>
-    GroundSamples(const Ground& ground, float highest_m, Height height)
-        : ground_(&ground), height_(height), highest_m_(static_cast<double>(highest_m)), columns_(ground.columns()),
-          rows_(ground.rows()), spacing_m_(ground.spacing_m()), half_extent_m_(ground.half_extent_m()) {}
+    GroundSamples(const Ground& ground, float highest_m, Height height, CopyRow copy_row)
+        : ground_(&ground), height_(height), copy_row_(copy_row), highest_m_(static_cast<double>(highest_m)),
+          columns_(ground.columns()), rows_(ground.rows()), spacing_m_(ground.spacing_m()),
+          half_extent_m_(ground.half_extent_m()) {}
 
     const void* ground_;
     Height height_;
+    CopyRow copy_row_;
     double highest_m_;
     int columns_;
     int rows_;

@@ -6,9 +6,11 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <utility>
+#include <vector>
 
 #include "ground_fields.h"
 
@@ -134,6 +136,25 @@ TEST_CASE("between samples a ground is as high as its field, and nothing lies be
         }
     }
     CHECK(ground.height_at(285.0, 180.0) == field.height_at(285.0, 180.0));
+}
+
+TEST_CASE("a row of heights is that of its samples") {
+    for (const auto& [columns, rows] :
+        {std::pair(2, 2), {3, 3}, {129, 129}, {130, 71}, {33, 200}, {257, 2}, {2, 257}, {300, 140}}) {
+        CAPTURE(columns, rows);
+        std::vector<float> heights_m;
+        for (int i = 0; i < columns * rows; ++i) { heights_m.push_back(static_cast<float>((i * 7919) % 1000)); }
+        const GroundTiles ground = make_ground_tiles({columns, rows, 10.0, heights_m});
+        std::vector<float> row_m(static_cast<std::size_t>(columns));
+        for (int row = 0; row < rows; ++row) {
+            std::ranges::fill(row_m, -1.0F);
+            ground.copy_row(row, row_m);
+            for (int column = 0; column < columns; ++column) {
+                CAPTURE(column, row);
+                REQUIRE(row_m[static_cast<std::size_t>(column)] == ground.height_m(column, row));
+            }
+        }
+    }
 }
 
 } // namespace octant::visuals::terrain
