@@ -16,6 +16,7 @@
 #include <map>
 #include <queue>
 #include <set>
+#include <span>
 #include <utility>
 
 namespace octant::visuals::roads {
@@ -73,15 +74,22 @@ void RoadCostGrid::read(const terrain::GroundSamples& ground, int stride, const 
     heights_m_.reserve(count);
     free_.reserve(count);
     const int step = std::max(stride / min_water_samples, 1);
+    const auto samples = static_cast<std::size_t>(ground.columns());
+    std::vector<float> lines_m(static_cast<std::size_t>(stride / step + 1) * samples);
     for (int row = 0; row < rows_; ++row) {
+        for (int north = 0; north <= stride; north += step) {
+            const auto line = static_cast<std::size_t>(north / step);
+            ground.copy_row(row * stride + north, std::span(lines_m).subspan(line * samples, samples));
+        }
         for (int column = 0; column < columns_; ++column) {
-            double lowest_m = ground.height_m(column * stride, row * stride);
+            const auto first = static_cast<std::size_t>(column) * static_cast<std::size_t>(stride);
+            auto lowest_m = static_cast<double>(lines_m[first]);
             double highest_m = lowest_m;
             double sum_m = 0.0;
             int seen = 0;
-            for (int north = 0; north <= stride; north += step) {
+            for (std::size_t line = 0; line < lines_m.size(); line += samples) {
                 for (int east = 0; east <= stride; east += step) {
-                    const double height_m = ground.height_m(column * stride + east, row * stride + north);
+                    const auto height_m = static_cast<double>(lines_m[line + first + static_cast<std::size_t>(east)]);
                     lowest_m = std::min(lowest_m, height_m);
                     highest_m = std::max(highest_m, height_m);
                     sum_m += height_m;
@@ -156,14 +164,15 @@ constexpr double infinite = std::numeric_limits<double>::infinity();
 constexpr std::array<glm::ivec2, 16> moves = {glm::ivec2(1, 0), {0, 1}, {-1, 0}, {0, -1}, {1, 1}, {-1, 1}, {-1, -1},
     {1, -1}, {2, 1}, {1, 2}, {-1, 2}, {-2, 1}, {-2, -1}, {-1, -2}, {1, -2}, {2, -1}};
 
-/// Calls `visit` with each cell that a road may go to next.
-template <class Visit>
-void for_each_neighbour(const RoadCostGrid& ground, std::size_t cell, const Visit& visit) {
+/// Calls `visit` with each cell that a road may go to next and that is wanted.
+template <class Wanted, class Visit>
+void for_each_neighbour(const RoadCostGrid& ground, std::size_t cell, const Wanted& is_wanted, const Visit& visit) {
     const glm::ivec2 at = ground.column_row(cell);
     for (const glm::ivec2& move : moves) {
         const glm::ivec2 next = at + move;
         if (next.x < 0 || next.y < 0 || next.x >= ground.columns() || next.y >= ground.rows()) { continue; }
         const std::size_t to = ground.cell(next.x, next.y);
+        if (!is_wanted(to)) { continue; }
         // A knight's move goes between two cells, of which none may be water.
         const bool is_knight = std::abs(move.x) + std::abs(move.y) == 3;
         const glm::ivec2 half = move / 2;
@@ -198,15 +207,18 @@ TownDistances town_distances(const RoadCostGrid& ground, const std::vector<std::
         const auto [cost_m, cell] = open.top();
         open.pop();
         if (cost_m > distances.cost_m[cell]) { continue; }
-        for_each_neighbour(ground, cell, [&, from = cell, so_far_m = cost_m](std::size_t to) {
-            const double through_m = so_far_m + ground.cost_m(from, to);
-            if (through_m < distances.cost_m[to]) {
-                distances.cost_m[to] = through_m;
-                distances.town[to] = distances.town[from];
-                distances.predecessor[to] = from;
-                open.emplace(through_m, to);
-            }
-        });
+        // Most neighbours have been reached at a lower cost.
+        for_each_neighbour(
+            ground, cell, [&, so_far_m = cost_m](std::size_t to) { return so_far_m < distances.cost_m[to]; },
+            [&, from = cell, so_far_m = cost_m](std::size_t to) {
+                const double through_m = so_far_m + ground.cost_m(from, to);
+                if (through_m < distances.cost_m[to]) {
+                    distances.cost_m[to] = through_m;
+                    distances.town[to] = distances.town[from];
+                    distances.predecessor[to] = from;
+                    open.emplace(through_m, to);
+                }
+            });
     }
     return distances;
 }
@@ -224,15 +236,15 @@ std::vector<TownLink> links_between(const RoadCostGrid& ground, const TownDistan
     std::map<std::array<std::size_t, 2>, TownLink> best;
     for (std::size_t cell = 0; cell < distances.town.size(); ++cell) {
         if (distances.town[cell] == no_cell) { continue; }
-        for_each_neighbour(ground, cell, [&](std::size_t to) {
-            const std::array towns{distances.town[cell], distances.town[to]};
-            if (towns[0] >= towns[1]) {
-                return; // the same, or met from the other side
-            }
-            TownLink& link = best[towns];
-            const double cost_m = distances.cost_m[cell] + ground.cost_m(cell, to) + distances.cost_m[to];
-            if (cost_m < link.cost_m) { link = {cost_m, cell, to, towns}; }
-        });
+        // Not the same town, nor one met from the other side.
+        for_each_neighbour(
+            ground, cell, [&](std::size_t to) { return distances.town[cell] < distances.town[to]; },
+            [&](std::size_t to) {
+                const std::array towns{distances.town[cell], distances.town[to]};
+                TownLink& link = best[towns];
+                const double cost_m = distances.cost_m[cell] + ground.cost_m(cell, to) + distances.cost_m[to];
+                if (cost_m < link.cost_m) { link = {cost_m, cell, to, towns}; }
+            });
     }
     std::vector<TownLink> links;
     for (const auto& [towns, link] : best) { links.push_back(link); }
