@@ -21,6 +21,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <bit>
 #include <cassert>
 #include <cmath>
@@ -41,9 +42,7 @@ namespace {
 /// pixels of 720 lines over 45 degrees; nearer than the distance of samples about half of what edges look like there.
 constexpr float footprint_share = 1.0F / 192.0F;
 constexpr float near_footprint_share = 1.0F / 40.0F;
-constexpr std::size_t min_places = 1U << 14U;
-constexpr std::size_t looked_ahead = 16; ///< vertices whose places are fetched into the cache
-constexpr int mean_samples = 16;         ///< a side
+constexpr int mean_samples = 16; ///< a side
 
 /// Packed colours mixed by 256ths, rounded.
 std::uint32_t mixed(std::uint32_t a, std::uint32_t b, std::uint32_t share_of_b) {
@@ -66,10 +65,51 @@ Octave octave_of(float footprints) {
     return {(bits >> 23U) - 127U, (bits >> 15U) & 0xffU};
 }
 
-std::size_t hashed(std::uint32_t column, std::uint32_t row) {
-    const std::uint32_t h = column * 0x9e3779b1U ^ row * 0x85ebca77U;
-    return h ^ (h >> 15U);
-}
+/// Remembers colours by place and octave. Any number of threads may ask and add at a time: an entry is one word, which
+/// holds all of the key that its bucket does not say, and whose colour follows from the key alone. So a lost entry
+/// costs time and changes nothing.
+class ColourTable {
+public:
+    /// A place in 1/64 of the distance of samples, at most 2^22 along each axis, and an octave up to 30.
+    struct Key {
+        std::uint32_t column;
+        std::uint32_t row;
+        unsigned octave;
+    };
+
+    ColourTable() : words_(std::make_unique<std::atomic<std::uint64_t>[]>(buckets * ways)) {}
+
+    /// The colour of a key, which compute() makes where it is not remembered.
+    template <typename Compute>
+    std::uint32_t get(const Key& key, const Compute& compute) const {
+        // Multiplications by odd numbers and shifts can be undone within 49 bits: bucket and tag together are the key.
+        constexpr std::uint64_t key_mask = (std::uint64_t{1} << key_bits) - 1;
+        std::uint64_t h = (std::uint64_t{key.column} << 27U | std::uint64_t{key.row} << 5U | (key.octave + 1U));
+        h = h * 0x9e3779b97f4a7c15U & key_mask;
+        h ^= h >> 25U;
+        h = h * 0xd1b54a32d192ed03U & key_mask;
+        h ^= h >> 29U;
+        const std::uint64_t tag = h >> bucket_bits;
+        std::atomic<std::uint64_t>* const bucket = &words_[(h & (buckets - 1)) * ways];
+        std::size_t free = tag % ways;
+        for (std::size_t way = 0; way < ways; ++way) {
+            const std::uint64_t word = bucket[way].load(std::memory_order_relaxed);
+            if (word >> 32U == tag && word != 0) { return static_cast<std::uint32_t>(word); }
+            if (word == 0) { free = way; }
+        }
+        const std::uint32_t colour = compute();
+        bucket[free].store(tag << 32U | colour, std::memory_order_relaxed);
+        return colour;
+    }
+
+private:
+    static constexpr unsigned key_bits = 49;
+    static constexpr unsigned bucket_bits = 17;
+    static constexpr std::size_t buckets = std::size_t{1} << bucket_bits;
+    static constexpr std::size_t ways = 2;
+
+    std::unique_ptr<std::atomic<std::uint64_t>[]> words_; ///< 0 = unused
+};
 
 /// Colours the vertices of meshes with geomorphs so that no change of detail changes a colour in a step. What a vertex
 /// shows depends on its sample and its distance from the eye alone: slope and cover are filtered to a footprint that
@@ -77,8 +117,8 @@ std::size_t hashed(std::uint32_t column, std::uint32_t row) {
 /// its ends to its own. Near the eye the footprint is smaller than the distance of samples, and places between them
 /// have colours, too. Water takes part of what it shows from the sky and the sun, by the eye's place.
 ///
-/// Colours are worked out when first asked for, so that the size of the ground does not matter, and remembered; memory
-/// follows the number of vertices.
+/// Colours are worked out when first asked for, so that the size of the ground does not matter, and the last quarter of a
+/// million are remembered, for all views together.
 class VertexColours {
 public:
     /// The ground must outlive the colours.
@@ -87,32 +127,13 @@ public:
         : ground_(ground), palette_(settings, climate_at(ground.metadata().place), std::move(terrain_shadows)),
           water_(daylight_of(settings)),
           footprints_per_m_(static_cast<float>(1U << finer_octaves) / static_cast<float>(ground.spacing_m())),
-          last_octave_(static_cast<unsigned>(ground.levels() - 1) + finer_octaves) {
-        recent_.resize(min_places);
-        older_.resize(min_places);
-    }
-
-    /// Gives other colours from now on.
-    void apply_settings(
-        const scene::AirSettings& settings, std::shared_ptr<const nature::ReliefShadows> terrain_shadows) {
-        palette_ = GroundPalette(settings, climate_at(ground_.metadata().place), std::move(terrain_shadows));
-        water_ = nature::WaterReflection(daylight_of(settings));
-        std::ranges::fill(recent_, CachedColours{});
-        std::ranges::fill(older_, CachedColours{});
-        recent_count_ = 0;
-    }
+          last_octave_(static_cast<unsigned>(ground.levels() - 1) + finer_octaves) {}
 
     /// Fills in ColourVertex::colour; `morphs` as GroundMesh::morphs.
-    void fill(std::span<models::ColourVertex> vertices, std::span<const terrain::VertexMorph> morphs) {
+    void fill(std::span<models::ColourVertex> vertices, std::span<const terrain::VertexMorph> morphs) const {
         assert(vertices.size() == morphs.size());
-        reserve(vertices.size());
-        const std::size_t mask = recent_.size() - 1;
         for (std::size_t i = 0; i < vertices.size(); ++i) {
             const terrain::VertexMorph& origin = morphs[i];
-            if (i + looked_ahead < morphs.size()) {
-                const terrain::VertexMorph& later = morphs[i + looked_ahead];
-                __builtin_prefetch(&recent_[hashed(later.column * subdivisions, later.row * subdivisions) & mask]);
-            }
             std::uint32_t colour = colour_at_distance(
                 {origin.column * subdivisions, origin.row * subdivisions}, glm::length(vertices[i].position_m));
             if (origin.weight < 1.0F) {
@@ -128,18 +149,19 @@ public:
     }
 
     /// Colour of a place of the world, packed, with the number of its covers for alpha.
-    std::uint32_t at(const glm::dvec2& place_m, const glm::vec3& from_eye_m) {
+    std::uint32_t at(const glm::dvec2& place_m, const glm::vec3& from_eye_m) const {
         const glm::dvec2 grid =
             (place_m + ground_.half_extent_m()) * (static_cast<double>(subdivisions) / ground_.spacing_m());
         const auto place_of = [](double at, int samples) {
             const auto last = static_cast<double>(samples - 1) * subdivisions;
             return static_cast<std::uint32_t>(std::lround(std::clamp(at, 0.0, last)));
         };
-        if (4 * recent_count_ > 3 * recent_.size()) { reserve(0); }
         const std::uint32_t colour = colour_at_distance(
             {place_of(grid.x, ground_.columns()), place_of(grid.y, ground_.rows())}, glm::length(from_eye_m));
         return colour >> 24U == 0 ? seen_water(colour, from_eye_m) : colour;
     }
+
+    const GroundPalette& palette() const { return palette_; }
 
     /// What stands at a sample.
     nature::SceneryDensity scenery_density_of(int column, int row) const {
@@ -154,7 +176,7 @@ public:
             for (int i = 0; i < mean_samples; ++i) {
                 const auto column = static_cast<std::uint32_t>((2 * i + 1) * ground_.columns() / (2 * mean_samples));
                 const auto row = static_cast<std::uint32_t>((2 * j + 1) * ground_.rows() / (2 * mean_samples));
-                const std::uint32_t colour = colour_of({column * subdivisions, row * subdivisions}, finer_octaves);
+                const std::uint32_t colour = made_colour({column * subdivisions, row * subdivisions}, finer_octaves);
                 sum += glm::vec3(colour & 0xffU, colour >> 8U & 0xffU, colour >> 16U & 0xffU);
             }
         }
@@ -170,88 +192,32 @@ private:
         bool operator==(const SubgridPoint&) const = default;
     };
 
-    /// A place's colours at two neighbouring octaves.
-    struct CachedColours {
-        SubgridPoint place;
-        std::uint32_t octave = unused;
-        std::uint32_t fine = 0;
-        std::uint32_t coarse = 0;
-    };
-
-    static constexpr std::uint32_t unused = ~std::uint32_t{0};
     static constexpr std::uint32_t subdivisions = 64;
     /// Footprints are counted from the distance of samples over 2^finer_octaves.
     static constexpr unsigned finer_octaves = 5;
 
-    /// Places for all vertices of a mesh; what was not asked for since the last but one time that the table filled is
-    /// forgotten.
-    void reserve(std::size_t vertices) {
-        const std::size_t places = std::max(min_places, std::bit_ceil(4 * vertices));
-        if (places > recent_.size()) {
-            std::vector<CachedColours> old(places);
-            std::swap(old, recent_);
-            older_.assign(places, {});
-            recent_count_ = 0;
-            for (const CachedColours& entry : old) {
-                if (entry.octave != unused) {
-                    slot_in(recent_, entry.place) = entry;
-                    ++recent_count_;
-                }
-            }
-        } else if (2 * recent_count_ > recent_.size()) {
-            std::swap(recent_, older_);
-            std::fill(recent_.begin(), recent_.end(), CachedColours{});
-            recent_count_ = 0;
-        }
-    }
-
     /// Without what water mirrors.
-    std::uint32_t colour_at_distance(const SubgridPoint& place, float distance_m) {
+    std::uint32_t colour_at_distance(const SubgridPoint& place, float distance_m) const {
         const float near =
             std::min(distance_m * near_footprint_share * footprints_per_m_, static_cast<float>(1U << finer_octaves));
         const Octave octave = octave_of(std::max(near, distance_m * footprint_share * footprints_per_m_));
-        const CachedColours& entry = cached_entry(place, std::min(octave.whole, last_octave_));
-        return mixed(entry.fine, entry.coarse, octave.whole < last_octave_ ? octave.part : 256U);
-    }
-
-    const CachedColours& cached_entry(const SubgridPoint& place, unsigned octave) {
-        CachedColours& entry = slot_in(recent_, place);
-        if (entry.octave == octave) { return entry; }
-        if (entry.octave == unused) {
-            ++recent_count_;
-            const CachedColours& before = slot_in(older_, place);
-            if (before.octave != unused) { entry = before; }
-            entry.place = place;
-        }
-        if (entry.octave != octave) { compute(entry, octave); }
-        return entry;
-    }
-
-    CachedColours& slot_in(std::vector<CachedColours>& table, const SubgridPoint& place) const {
-        const std::size_t mask = table.size() - 1;
-        std::size_t at = hashed(place.column, place.row) & mask;
-        while (table[at].octave != unused && table[at].place != place) { at = (at + 1) & mask; }
-        return table[at];
-    }
-
-    void compute(CachedColours& entry, unsigned octave) const {
-        const CachedColours before = entry;
-        const unsigned coarser = std::min(octave + 1, last_octave_);
-        entry.octave = octave;
-        entry.fine =
-            before.octave != unused && before.octave + 1 == octave ? before.coarse : colour_of(entry.place, octave);
-        entry.coarse = before.octave == octave + 1 ? before.fine
-                       : coarser == octave         ? entry.fine
-                                                   : colour_of(entry.place, coarser);
+        if (octave.whole >= last_octave_) { return colour_of(place, last_octave_); }
+        const std::uint32_t fine = colour_of(place, octave.whole);
+        // Ground as far off as its samples allow no finer footprint has this part for much of the way.
+        return octave.part == 0 ? fine : mixed(fine, colour_of(place, octave.whole + 1), octave.part);
     }
 
     std::uint32_t colour_of(const SubgridPoint& place, unsigned octave) const {
+        return table_.get({place.column, place.row, octave}, [&] { return made_colour(place, octave); });
+    }
+
+    std::uint32_t made_colour(const SubgridPoint& place, unsigned octave) const {
         const int step = octave > finer_octaves ? 1 << (octave - finer_octaves) : 1;
         const bool is_sample = place.column % subdivisions == 0 && place.row % subdivisions == 0;
         TerrainPoint point = is_sample ? sample_point(place, step) : point_between(place);
         point.land_share = palette_.is_water(point) ? land_share_at(point) : 0.0F;
-        return palette_.packed(point, static_cast<float>(ground_.spacing_m()) *
-                                          std::exp2(static_cast<float>(octave) - static_cast<float>(finer_octaves)));
+        return palette_.packed(
+            point, std::ldexp(static_cast<float>(ground_.spacing_m()), static_cast<int>(octave) - int{finer_octaves}));
     }
 
     /// A sample with the mean slope of so wide a surrounding; of a place between samples, the one south-west of it.
@@ -318,9 +284,7 @@ private:
     nature::WaterReflection water_;
     float footprints_per_m_; ///< of the distance, in footprints of octave 0
     unsigned last_octave_;
-    std::vector<CachedColours> recent_; ///< asked for lately; a power of two of places
-    std::vector<CachedColours> older_;  ///< those asked for before
-    std::size_t recent_count_ = 0;
+    ColourTable table_;
 };
 
 constexpr double highest_desert_town_m = 3000.0; ///< the trees of deserts say nothing of people
@@ -358,24 +322,43 @@ private:
     std::shared_ptr<const roads::RoadNetwork> roads_;
 };
 
-/// Tiles, in memory or mapped from a file, and the palette of their colours.
+/// What a ground looks like under its sun.
+struct LitGround {
+    /// `same_ground`: as for nature::ReliefShadows. The ground must outlive this.
+    LitGround(
+        const terrain::GroundTiles& ground, const scene::AirSettings& air, const nature::ReliefShadows* same_ground)
+        : shadows(make_relief_shadows(terrain::GroundSamples(ground), air, same_ground)), colours(ground, air, shadows),
+          mean_colour(colours.mean()) {}
+
+    std::shared_ptr<const nature::ReliefShadows> shadows; ///< null = none
+    VertexColours colours;
+    glm::vec3 mean_colour;
+};
+
+/// Tiles, in memory or mapped from a file, and what is made of them when it is first asked for.
 class BisectionGround final : public Ground {
 public:
-    /// `roads`: of a ground of the same heights; null where there is none.
+    /// `same_heights`: ground of the same tiles and another sun, whose roads and light are shared; null = none.
     BisectionGround(std::shared_ptr<const terrain::GroundTiles> tiles, const scene::AirSettings& air,
-        std::shared_ptr<const models::heights::RunwayStrip> runway, std::shared_ptr<SharedRoads> roads = nullptr)
+        std::shared_ptr<const models::heights::RunwayStrip> runway, const BisectionGround* same_heights = nullptr)
         : Ground(air, std::move(runway)), tiles_(std::move(tiles)),
-          roads_(roads && roads->water_level_m() == air.water_level_m
-                     ? std::move(roads)
+          roads_(same_heights != nullptr && same_heights->roads_->water_level_m() == air.water_level_m
+                     ? same_heights->roads_
                      : std::make_shared<SharedRoads>(air.water_level_m)),
-          terrain_shadows_(make_relief_shadows(terrain::GroundSamples(*tiles_), air)),
           contrast_(std::make_shared<const scene::LandCoverContrast>(
               GroundPalette(air, climate_at(tiles_->metadata().place)).contrast())),
-          mean_colour_(VertexColours(*tiles_, air, terrain_shadows_).mean()) {}
+          other_shadows_(same_heights != nullptr ? same_heights->lit().shadows : nullptr) {}
 
     const terrain::GroundTiles& tiles() const { return *tiles_; }
 
-    const std::shared_ptr<const nature::ReliefShadows>& terrain_shadows() const { return terrain_shadows_; }
+    /// Loading work where it is first asked for.
+    const LitGround& lit() const {
+        std::call_once(lit_once_, [this] {
+            lit_.emplace(*tiles_, air(), other_shadows_.get());
+            other_shadows_.reset();
+        });
+        return *lit_;
+    }
 
     std::optional<double> height_at(double x_m, double y_m) const override { return tiles_->height_at(x_m, y_m); }
 
@@ -385,7 +368,7 @@ public:
 
     double mean_height_m() const override { return static_cast<double>(tiles_->metadata().mean_m); }
 
-    glm::vec3 mean_colour() const override { return mean_colour_; }
+    glm::vec3 mean_colour() const override { return lit().mean_colour; }
 
     std::shared_ptr<const scene::LandCoverContrast> land_cover_contrast() const override { return contrast_; }
 
@@ -394,21 +377,19 @@ public:
     }
 
     glm::vec3 colour_at(double x_m, double y_m, double footprint_m) const override {
-        const terrain::GroundSamples samples(*tiles_);
-        const GroundPalette palette(air(), climate_at(tiles_->metadata().place), terrain_shadows_);
-        return nearest_colour(samples, palette, {x_m, y_m}, footprint_m);
+        return nearest_colour(terrain::GroundSamples(*tiles_), lit().colours.palette(), {x_m, y_m}, footprint_m);
     }
 
     float cover_code_at(double x_m, double y_m, double footprint_m) const override {
-        const GroundPalette palette(air(), climate_at(tiles_->metadata().place));
-        return palette.cover_code(
+        return lit().colours.palette().cover_code(
             nearest_point(terrain::GroundSamples(*tiles_), {x_m, y_m}, footprint_m), static_cast<float>(footprint_m));
     }
 
     nature::LightVisibility light_visibility(double x_m, double y_m) const override {
         const glm::vec2 at_m(glm::dvec2(x_m, y_m) + half_extent_m());
-        return terrain_shadows_ ? terrain_shadows_->at(at_m.x, at_m.y, static_cast<float>(spacing_m()))
-                                : nature::LightVisibility();
+        const nature::ReliefShadows* const shadows = lit().shadows.get();
+        return shadows != nullptr ? shadows->at(at_m.x, at_m.y, static_cast<float>(spacing_m()))
+                                  : nature::LightVisibility();
     }
 
     std::shared_ptr<const roads::RoadNetwork> road_network() const override {
@@ -428,7 +409,7 @@ public:
 
     std::shared_ptr<const Ground> with_settings(
         const scene::GroundSettings& ground, const scene::AirSettings& air) const override {
-        return has_mesh_settings(ground) ? std::make_shared<BisectionGround>(tiles_, air, runway(), roads_) : nullptr;
+        return has_mesh_settings(ground) ? std::make_shared<BisectionGround>(tiles_, air, runway(), this) : nullptr;
     }
 
 private:
@@ -436,9 +417,10 @@ private:
 
     std::shared_ptr<const terrain::GroundTiles> tiles_;
     std::shared_ptr<SharedRoads> roads_;
-    std::shared_ptr<const nature::ReliefShadows> terrain_shadows_;
     std::shared_ptr<const scene::LandCoverContrast> contrast_;
-    glm::vec3 mean_colour_;
+    mutable std::once_flag lit_once_;
+    mutable std::optional<LitGround> lit_;
+    mutable std::shared_ptr<const nature::ReliefShadows> other_shadows_; ///< Of same_heights, until lit_ is made.
 };
 
 constexpr double prefetch_frames = 120.0; ///< how far along the eye's way pages are asked for
@@ -449,8 +431,7 @@ constexpr double default_triangles = 20000.0;
 class BisectionGroundMesher final : public GroundMesher {
 public:
     explicit BisectionGroundMesher(std::shared_ptr<const BisectionGround> ground)
-        : ground_(std::move(ground)), mesher_(ground_->tiles()),
-          colours_(ground_->tiles(), ground_->air(), ground_->terrain_shadows()) {}
+        : ground_(std::move(ground)), mesher_(ground_->tiles()) {}
 
     const Ground& ground() const override { return *ground_; }
 
@@ -461,6 +442,7 @@ public:
         target_.geomorphs = settings.ground.geomorphs;
         detail_ = {settings.ground.near_detail, settings.ground.scenery && !settings.has_texture};
         has_texture_ = settings.has_texture;
+        colours_ = &ground_->lit().colours;
         make_decorations(settings);
         is_coloured_ = false;
         earth_radius_m_ =
@@ -472,7 +454,7 @@ public:
         if (!moved || &moved->tiles() != &ground_->tiles()) { return false; }
         background_task_.wait();
         ground_ = std::move(moved);
-        colours_.apply_settings(ground_->air(), ground_->terrain_shadows());
+        colours_ = &ground_->lit().colours;
         is_coloured_ = false;
         return true;
     }
@@ -536,7 +518,7 @@ private:
         GroundMesher::apply_settings(settings);
         if (!detail_.scenery) { return; }
         const auto density_at = [this](int column, int row) {
-            nature::SceneryDensity density = colours_.scenery_density_of(column, row);
+            nature::SceneryDensity density = colours_->scenery_density_of(column, row);
             const double cell_m = ground_->spacing_m();
             const glm::dvec2 middle_m = (glm::dvec2(column, row) + 0.5) * cell_m - ground_->half_extent_m();
             for (const auto& decoration : decorations_) { decoration->limit_scenery(middle_m, cell_m, density); }
@@ -576,7 +558,7 @@ private:
         const terrain::GroundMesh mesh = mesher_.mesh(view, target_);
         if (!is_coloured_ || mesh.vertices.data() != mesh_.vertices.data()) {
             is_coloured_ = false;
-            colours_.fill(mesher_.vertices(), mesh.morphs);
+            colours_->fill(mesher_.vertices(), mesh.morphs);
             if (has_texture_) {
                 for (models::ColourVertex& vertex : mesher_.vertices()) {
                     vertex.colour |= 0xff000000U; // all of its light is left
@@ -607,13 +589,13 @@ private:
     }
 
     std::shared_ptr<const BisectionGround> ground_;
+    const VertexColours* colours_ = nullptr; ///< Of the ground.
     terrain::BisectionMesher mesher_;
-    VertexColours colours_;
     nature::DetailedGround detailed_ground_;
     nature::NearDetailOptions detail_;
     bool has_texture_ = false;
     nature::ColourAtPoint colour_at_point_ = [this](const glm::dvec2& place_m, const glm::vec3& from_eye_m) {
-        return colours_.at(place_m, from_eye_m);
+        return colours_->at(place_m, from_eye_m);
     };
     nature::NearDetailView near_view_;
     nature::DetailedGround::Triangles drawn_mesh_; ///< mesh_ with its detail

@@ -1,6 +1,7 @@
 #include "visuals/landscape/ground_palette.h"
 
 #include "models/colour_vertex.h"
+#include "sim/base/float4.h"
 #include "sim/base/units.h"
 #include "visuals/nature/climate.h"
 #include "visuals/scene/land_cover_contrast.h"
@@ -88,27 +89,57 @@ constexpr float bed_m = 3.5F;            ///< ... and of a bed within that
 constexpr float field_m = 260.0F;        ///< east to west ...
 constexpr float row_m = 180.0F;          ///< ... and south to north
 
-/// Whole-number noise in [0, 1): the same bits on every machine.
-float lattice_noise(int column, int row) {
-    auto h = static_cast<std::uint32_t>(column) * 0x9e3779b1U ^ static_cast<std::uint32_t>(row) * 0x85ebca77U;
+constexpr std::uint32_t column_factor = 0x9e3779b1U;
+constexpr std::uint32_t row_factor = 0x85ebca77U;
+
+/// Mixes whole numbers of a place, or of four, to 24 bits.
+template <typename Bits>
+Bits lattice_bits(Bits h) {
     h = (h ^ (h >> 15U)) * 0x2c1b3c6dU;
     h = (h ^ (h >> 12U)) * 0x297a2d39U;
-    return static_cast<float>((h ^ (h >> 15U)) >> 8U) * (1.0F / 16777216.0F);
+    return (h ^ (h >> 15U)) >> 8U;
 }
 
-int cell_of(float at_m, float cell_m) { return static_cast<int>(std::floor(at_m / cell_m)); }
+/// Whole-number noise in [0, 1): the same bits on every machine.
+float lattice_noise(int column, int row) {
+    const std::uint32_t h =
+        static_cast<std::uint32_t>(column) * column_factor ^ static_cast<std::uint32_t>(row) * row_factor;
+    return static_cast<float>(lattice_bits(h)) * (1.0F / 16777216.0F);
+}
+
+/// lattice_noise() of a place, of the one east of it, and of those north of both.
+Float4 lattice_noises(int column, int row) {
+    using Bits4 = std::uint32_t __attribute__((vector_size(16)));
+    const std::uint32_t west = static_cast<std::uint32_t>(column) * column_factor;
+    const std::uint32_t south = static_cast<std::uint32_t>(row) * row_factor;
+    const std::uint32_t east = west + column_factor;
+    const std::uint32_t north = south + row_factor;
+    const auto bits =
+        reinterpret_cast<Mask4>(lattice_bits(Bits4{west, east, west, east} ^ Bits4{south, south, north, north}));
+    return __builtin_convertvector(bits, Float4) * splat4(1.0F / 16777216.0F);
+}
+
+/// The whole number at or below a number that is far from the ends of int: without the C library's function, which
+/// costs more than all the rest of a cell's noise.
+int floored(float number) {
+    const int towards_zero = static_cast<int>(number);
+    return towards_zero - (static_cast<float>(towards_zero) > number ? 1 : 0);
+}
+
+int cell_of(float at_m, float cell_m) { return floored(at_m / cell_m); }
 
 /// Smooth noise in [-1, 1] whose features are `cell_m` wide.
 float patch_noise(float east_m, float north_m, float cell_m) {
-    const int i = cell_of(east_m, cell_m);
-    const int j = cell_of(north_m, cell_m);
-    const float u = east_m / cell_m - static_cast<float>(i);
-    const float v = north_m / cell_m - static_cast<float>(j);
+    const float x = east_m / cell_m;
+    const float y = north_m / cell_m;
+    const int i = floored(x);
+    const int j = floored(y);
+    const float u = x - static_cast<float>(i);
+    const float v = y - static_cast<float>(j);
     const float su = u * u * (3.0F - 2.0F * u);
     const float sv = v * v * (3.0F - 2.0F * v);
-    const float south = glm::mix(lattice_noise(i, j), lattice_noise(i + 1, j), su);
-    const float north = glm::mix(lattice_noise(i, j + 1), lattice_noise(i + 1, j + 1), su);
-    return 2.0F * glm::mix(south, north, sv) - 1.0F;
+    const Float4 parts = lattice_noises(i, j) * Float4{1.0F - su, su, 1.0F - su, su};
+    return 2.0F * glm::mix(parts[0] + parts[1], parts[2] + parts[3], sv) - 1.0F;
 }
 
 glm::vec3 stop_colour(std::span<const ColourStop> stops, float height_m) {
@@ -138,7 +169,8 @@ SiteConditions site_conditions(const TerrainPoint& point, float footprint_m, flo
 
 /// How far a place lies from the border of its cell, as a share of the cell.
 float distance_from_border(float at_m, float cell_m) {
-    const float part = at_m / cell_m - std::floor(at_m / cell_m);
+    const float cells = at_m / cell_m;
+    const float part = cells - static_cast<float>(floored(cells));
     return std::min(part, 1.0F - part);
 }
 
@@ -198,17 +230,24 @@ float tree_line_height_m(const SiteConditions& site) {
     return std::max(site.height_m + 120.0F * site.patchiness, 0.0F);
 }
 
-/// What covers a place whose height is what temperate_height_m() gives.
+/// What covers a place whose height is what temperate_height_m() gives. Noise that a share of zero would be multiplied
+/// with is not computed: the same holds below.
 LandCover land_cover(const SiteConditions& site) {
     LandCover cover;
     cover.below_tree_line =
         1.0F - glm::smoothstep(tree_line_m - 200.0F, tree_line_m + 200.0F, tree_line_height_m(site));
     const float level = 1.0F - glm::smoothstep(0.0010F, 0.0035F, site.steepness);
-    cover.farmland = site.summer_share * cover.below_tree_line * level *
-                     glm::smoothstep(-0.15F, 0.05F, patch_noise(site.east_m, site.north_m + 1e5F, 1220.0F));
-    const float growth = site.patchiness + 0.5F * patch_value(site, 100.0F) + 5.0F * site.steepness - 0.12F -
-                         0.55F * (1.0F - site.summer_share);
-    cover.forest_share = glm::smoothstep(0.0F, 0.16F, growth) * cover.below_tree_line * (1.0F - cover.farmland);
+    const float arable = site.summer_share * cover.below_tree_line * level;
+    if (arable > 0.0F) {
+        cover.farmland =
+            arable * glm::smoothstep(-0.15F, 0.05F, patch_noise(site.east_m, site.north_m + 1e5F, 1220.0F));
+    }
+    const float wild = 1.0F - cover.farmland;
+    if (cover.below_tree_line > 0.0F && wild > 0.0F) {
+        const float growth = site.patchiness + 0.5F * patch_value(site, 100.0F) + 5.0F * site.steepness - 0.12F -
+                             0.55F * (1.0F - site.summer_share);
+        cover.forest_share = glm::smoothstep(0.0F, 0.16F, growth) * cover.below_tree_line * wild;
+    }
     cover.rock_share = glm::smoothstep(0.14F, 0.30F, site.steepness + 0.03F * site.patchiness);
     return cover;
 }
@@ -223,24 +262,35 @@ float mottling(const SiteConditions& site, float coarsest_m, float strength) {
 /// How much of a place at the foot of steep ground is covered by loose stones, in streaks.
 float scree_cover(const SiteConditions& site) {
     const float steep = glm::smoothstep(0.06F, 0.13F, site.steepness);
+    if (steep <= 0.0F) { return 0.0F; }
     const float streaks = 0.5F * site.patchiness + 0.6F * patch_value(site, 45.0F) + 0.4F * patch_value(site, 14.0F);
     return steep * glm::smoothstep(-0.1F, 0.35F, streaks);
 }
 
+/// The share of a place that loose stones show, from scree_cover().
+constexpr float scree_share = 0.6F;
+
 /// The colour of temperate ground before light falls on it, display values. The height of the place is what
-/// temperate_height_m() gives.
-glm::vec3 temperate_colour(const SiteConditions& site) {
-    const LandCover cover = land_cover(site);
-    const float dryness = 0.5F + 0.5F * patch_noise(site.east_m + 1e5F, site.north_m, 1660.0F);
-    glm::vec3 colour = glm::mix(
-        stop_colour(meadow_stops, tree_line_height_m(site)), dry_grass, 0.45F * dryness * cover.below_tree_line);
-    colour = glm::mix(colour, heath, 0.6F * (1.0F - site.summer_share)) * mottling(site, 75.0F, 0.10F);
-    colour = glm::mix(colour, field_crop(site), cover.farmland);
-    const glm::vec3 canopy = forest * (1.0F + 0.15F * tree_speckle(site)) * mottling(site, 110.0F, 0.14F);
-    colour = glm::mix(colour, canopy, 0.9F * cover.forest_share);
-    colour = glm::mix(colour, scree * mottling(site, 20.0F, 0.10F), 0.6F * scree_cover(site));
-    const glm::vec3 rock = temperate_rock * (1.0F + 0.10F * site.patchiness);
-    return glm::mix(colour, rock * mottling(site, 60.0F, 0.13F), cover.rock_share);
+/// temperate_height_m() gives; `cover` and `stones` are what land_cover() and scree_cover() give.
+glm::vec3 temperate_colour(const SiteConditions& site, const LandCover& cover, float stones) {
+    glm::vec3 colour(0.0F);
+    if (cover.farmland < 1.0F) {
+        const float dryness = 0.5F + 0.5F * patch_noise(site.east_m + 1e5F, site.north_m, 1660.0F);
+        colour = glm::mix(
+            stop_colour(meadow_stops, tree_line_height_m(site)), dry_grass, 0.45F * dryness * cover.below_tree_line);
+        colour = glm::mix(colour, heath, 0.6F * (1.0F - site.summer_share)) * mottling(site, 75.0F, 0.10F);
+    }
+    if (cover.farmland > 0.0F) { colour = glm::mix(colour, field_crop(site), cover.farmland); }
+    if (cover.forest_share > 0.0F) {
+        const glm::vec3 canopy = forest * (1.0F + 0.15F * tree_speckle(site)) * mottling(site, 110.0F, 0.14F);
+        colour = glm::mix(colour, canopy, 0.9F * cover.forest_share);
+    }
+    if (stones > 0.0F) { colour = glm::mix(colour, scree * mottling(site, 20.0F, 0.10F), scree_share * stones); }
+    if (cover.rock_share > 0.0F) {
+        const glm::vec3 rock = temperate_rock * (1.0F + 0.10F * site.patchiness);
+        colour = glm::mix(colour, rock * mottling(site, 60.0F, 0.13F), cover.rock_share);
+    }
+    return colour;
 }
 
 /// Share of desert ground that shrubs cover, 0..1.
@@ -290,10 +340,9 @@ std::array<scene::LandCover, scene::LandCoverContrast::covers> dust_covers(const
 }
 
 /// What temperate_colour() is mixed of, as the number of a cover; at least woods_code. The next two do so for theirs.
-float temperate_cover_code(const SiteConditions& site) {
-    const LandCover cover = land_cover(site);
+float temperate_cover_code(const LandCover& cover, float stones) {
     const float vegetated = glm::mix(meadow_code, woods_code, cover.forest_share);
-    return glm::mix(vegetated, rock_code, std::max(cover.rock_share, 0.6F * scree_cover(site)));
+    return glm::mix(vegetated, rock_code, std::max(cover.rock_share, scree_share * stones));
 }
 
 float arid_cover_code(const SiteConditions& site) {
@@ -330,11 +379,11 @@ bool same_colours(const scene::AirSettings& a, const scene::AirSettings& b) {
            a.relief_shadows == b.relief_shadows && a.water_level_m == b.water_level_m && a.palette == b.palette;
 }
 
-std::shared_ptr<const nature::ReliefShadows> make_relief_shadows(
-    const terrain::GroundSamples& ground, const scene::AirSettings& settings) {
-    return settings.relief_shadows
-               ? std::make_shared<const nature::ReliefShadows>(ground, glm::dvec3(direction_to_sun(settings)))
-               : nullptr;
+std::shared_ptr<const nature::ReliefShadows> make_relief_shadows(const terrain::GroundSamples& ground,
+    const scene::AirSettings& settings, const nature::ReliefShadows* same_ground) {
+    return settings.relief_shadows ? std::make_shared<const nature::ReliefShadows>(
+                                         ground, glm::dvec3(direction_to_sun(settings)), same_ground)
+                                   : nullptr;
 }
 
 nature::Climate climate_at(const std::optional<GeoPosition>& place) {
@@ -354,37 +403,46 @@ GroundPalette::GroundPalette(const scene::AirSettings& settings, const nature::C
     if (settings.palette) { climate_.arid = settings.palette == scene::Palette::Arid; }
 }
 
-glm::vec3 GroundPalette::albedo(const TerrainPoint& point, float footprint_m) const {
+GroundPalette::Cover GroundPalette::cover(const TerrainPoint& point, float footprint_m) const {
+    if (is_water(point)) { return {glm::mix(water_colour, shallow_water, point.land_share), 0.0F}; }
     SiteConditions site = site_conditions(point, footprint_m, water_m_);
-    if (is_water(point)) { return glm::mix(water_colour, shallow_water, point.land_share); }
-    if (climate_.dust) { return dust_colour(site, *climate_.dust); }
+    if (climate_.dust) { return {dust_colour(site, *climate_.dust), dust_cover_code(site)}; }
     const float white = snow_share(site, point.normal, climate_);
-    if (climate_.arid) { return glm::mix(arid_colour(site), snow_colour, white); }
-    site.height_m = temperate_height_m(site.height_m, climate_);
-    site.summer_share = summer_share_of(climate_);
-    return glm::mix(temperate_colour(site), snow_colour, white);
+    Cover bare;
+    if (climate_.arid) {
+        bare = {arid_colour(site), arid_cover_code(site)};
+    } else {
+        site.height_m = temperate_height_m(site.height_m, climate_);
+        site.summer_share = summer_share_of(climate_);
+        const LandCover cover = land_cover(site);
+        const float stones = scree_cover(site);
+        bare = {temperate_colour(site, cover, stones), temperate_cover_code(cover, stones)};
+    }
+    return {glm::mix(bare.albedo, snow_colour, white), glm::mix(bare.code, snow_code, white)};
+}
+
+glm::vec3 GroundPalette::albedo(const TerrainPoint& point, float footprint_m) const {
+    return cover(point, footprint_m).albedo;
+}
+
+glm::vec3 GroundPalette::light(const TerrainPoint& point, float footprint_m) const {
+    const nature::LightVisibility left = visibility_at(point, footprint_m);
+    const float towards = std::max(glm::dot(point.normal, glm::vec3(daylight_.to_sun())), 0.0F);
+    return daylight_.ambient() * left.sky + daylight_.sunlight() * (towards * left.sun);
 }
 
 glm::vec3 GroundPalette::lit_colour(const TerrainPoint& point, float footprint_m) const {
-    const nature::LightVisibility left = visibility_at(point, footprint_m);
-    const float towards = std::max(glm::dot(point.normal, glm::vec3(daylight_.to_sun())), 0.0F);
-    return albedo(point, footprint_m) * (daylight_.ambient() * left.sky + daylight_.sunlight() * (towards * left.sun));
+    return albedo(point, footprint_m) * light(point, footprint_m);
 }
 
 std::uint32_t GroundPalette::packed(const TerrainPoint& point, float footprint_m) const {
-    const auto number = static_cast<std::uint32_t>(std::lround(cover_code(point, footprint_m)));
-    return (models::packed_colour(lit_colour(point, footprint_m)) & 0x00ffffffU) | number << 24U;
+    const Cover own = cover(point, footprint_m);
+    const auto code = static_cast<std::uint32_t>(std::lround(own.code));
+    return (models::packed_colour(own.albedo * light(point, footprint_m)) & 0x00ffffffU) | code << 24U;
 }
 
 float GroundPalette::cover_code(const TerrainPoint& point, float footprint_m) const {
-    if (is_water(point)) { return 0.0F; }
-    SiteConditions site = site_conditions(point, footprint_m, water_m_);
-    if (climate_.dust) { return dust_cover_code(site); }
-    const float white = snow_share(site, point.normal, climate_);
-    if (climate_.arid) { return glm::mix(arid_cover_code(site), snow_code, white); }
-    site.height_m = temperate_height_m(site.height_m, climate_);
-    site.summer_share = summer_share_of(climate_);
-    return glm::mix(temperate_cover_code(site), snow_code, white);
+    return cover(point, footprint_m).code;
 }
 
 scene::LandCoverContrast GroundPalette::contrast() const {
@@ -420,10 +478,7 @@ nature::SceneryDensity GroundPalette::scenery_density(const TerrainPoint& point,
 }
 
 glm::vec3 GroundPalette::light_visibility(const TerrainPoint& point, float footprint_m) const {
-    const nature::LightVisibility left = visibility_at(point, footprint_m);
-    const float towards = std::max(glm::dot(point.normal, glm::vec3(daylight_.to_sun())), 0.0F);
-    return (daylight_.ambient() * left.sky + daylight_.sunlight() * (towards * left.sun)) /
-           glm::max(illumination(point.normal, daylight_), glm::vec3(1e-3F));
+    return light(point, footprint_m) / glm::max(illumination(point.normal, daylight_), glm::vec3(1e-3F));
 }
 
 nature::LightVisibility GroundPalette::visibility_at(const TerrainPoint& point, float footprint_m) const {

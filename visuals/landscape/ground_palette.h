@@ -41,9 +41,10 @@ nature::Daylight daylight_of(const scene::AirSettings& settings);
 /// The factor of light on the colour of a surface. `normal`: unit vector, world axes.
 glm::vec3 illumination(const glm::vec3& normal, const nature::Daylight& day);
 
-/// The shadows of the ground on itself under the settings' sun; null if the settings turn them off.
-std::shared_ptr<const nature::ReliefShadows> make_relief_shadows(
-    const terrain::GroundSamples& ground, const scene::AirSettings& settings);
+/// The shadows of the ground on itself under the settings' sun; null if the settings turn them off. `same_ground`: as
+/// for nature::ReliefShadows.
+std::shared_ptr<const nature::ReliefShadows> make_relief_shadows(const terrain::GroundSamples& ground,
+    const scene::AirSettings& settings, const nature::ReliefShadows* same_ground = nullptr);
 
 /// The climate at a position on the earth; without a position, that of generated ground. No vegetation on other bodies.
 nature::Climate climate_at(const std::optional<GeoPosition>& place);
@@ -86,6 +87,14 @@ public:
     glm::vec3 light_visibility(const TerrainPoint& point, float footprint_m) const;
 
 private:
+    /// albedo() and cover_code(), which cost little more than one of them.
+    struct Cover {
+        glm::vec3 albedo{0.0F};
+        float code = 0.0F;
+    };
+
+    Cover cover(const TerrainPoint& point, float footprint_m) const;
+    glm::vec3 light(const TerrainPoint& point, float footprint_m) const;
     nature::LightVisibility visibility_at(const TerrainPoint& point, float footprint_m) const;
 
     nature::Daylight daylight_;

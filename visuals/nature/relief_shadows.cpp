@@ -6,8 +6,11 @@
 #include "sim/base/thread_pool.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
+#include <optional>
+#include <span>
 #include <utility>
 
 namespace octant::visuals::nature {
@@ -39,12 +42,20 @@ Grid reduced(const terrain::GroundSamples& ground) {
     int stride = 1;
     while ((std::max(ground.columns(), ground.rows()) - 1) / stride > max_steps) { stride *= 2; }
     Grid grid{(ground.columns() - 1) / stride + 1, (ground.rows() - 1) / stride + 1, stride * ground.spacing_m(), {}};
-    grid.height_m.reserve(static_cast<std::size_t>(grid.columns) * static_cast<std::size_t>(grid.rows));
-    for (int row = 0; row < grid.rows; ++row) {
-        for (int column = 0; column < grid.columns; ++column) {
-            grid.height_m.push_back(static_cast<float>(ground.height_m(column * stride, row * stride)));
+    grid.height_m.resize(static_cast<std::size_t>(grid.columns) * static_cast<std::size_t>(grid.rows));
+    parallel_for_rows(grid.rows, [&](int row) {
+        const auto columns = static_cast<std::size_t>(grid.columns);
+        const std::span<float> of_row =
+            std::span(grid.height_m).subspan(static_cast<std::size_t>(row) * columns, columns);
+        if (stride == 1) {
+            ground.copy_row(row, of_row);
+            return;
         }
-    }
+        for (int column = 0; column < grid.columns; ++column) {
+            of_row[static_cast<std::size_t>(column)] =
+                static_cast<float>(ground.height_m(column * stride, row * stride));
+        }
+    });
     return grid;
 }
 
@@ -159,70 +170,72 @@ std::uint8_t byte_of(double share) {
 
 } // namespace
 
-ReliefShadows::ReliefShadows(const terrain::GroundSamples& ground, const glm::dvec3& to_sun) {
+ReliefShadows::ReliefShadows(
+    const terrain::GroundSamples& ground, const glm::dvec3& to_sun, const ReliefShadows* same_ground) {
     const Grid grid = reduced(ground);
     spacing_m_ = static_cast<float>(grid.step_m);
-    MipLevel& level = levels_.emplace_back();
-    level.columns = grid.columns;
-    level.rows = grid.rows;
-    level.cells.resize(grid.height_m.size());
-    const auto cell = [&](int column, int row) -> Cell& {
-        return level.cells[static_cast<std::size_t>(row) * static_cast<std::size_t>(grid.columns) +
-                           static_cast<std::size_t>(column)];
-    };
-    const Sums sums(grid);
-    const int threads = core_count();
-    const auto rows = static_cast<std::size_t>(grid.rows);
+    const auto columns = static_cast<std::size_t>(grid.columns);
+    sun_.push_back({grid.columns, grid.rows, std::vector<std::uint8_t>(grid.height_m.size(), 255)});
+    MipLevels sky;
+    std::optional<Sums> sums;
+    if (same_ground == nullptr) {
+        sky = sun_;
+        sums.emplace(grid);
+    }
+    const std::size_t rows = sums ? static_cast<std::size_t>(grid.rows) : 0;
     // The first task is the sweep, each other one the sky above a row.
-    parallel_for(rows + 1, threads, [&](std::size_t task, std::size_t) {
+    parallel_for(rows + 1, core_count(), [&](std::size_t task, std::size_t) {
         if (task > 0) {
             const auto row = static_cast<int>(task - 1);
             for (int column = 0; column < grid.columns; ++column) {
-                cell(column, row).sky = byte_of(sky_left(grid, sums, column, row));
+                sky.front().shares[(task - 1) * columns + static_cast<std::size_t>(column)] =
+                    byte_of(sky_left(grid, *sums, column, row));
             }
         } else if (std::hypot(to_sun.x, to_sun.y) > 1e-6) {
-            Sweep(grid, to_sun).run([&](int column, int at_row, double height_above_ground_m, double soft_m) {
-                cell(column, at_row).sun = byte_of(1.0 - height_above_ground_m / soft_m);
+            Sweep(grid, to_sun).run([&](int column, int row, double height_above_ground_m, double soft_m) {
+                sun_.front().shares[static_cast<std::size_t>(row) * columns + static_cast<std::size_t>(column)] =
+                    byte_of(1.0 - height_above_ground_m / soft_m);
             });
         }
     });
-    while (levels_.back().columns > 2 && levels_.back().rows > 2) { add_coarser_level(); }
+    add_coarser_levels(sun_);
+    if (same_ground == nullptr) { add_coarser_levels(sky); }
+    sky_ = same_ground == nullptr ? std::make_shared<const MipLevels>(std::move(sky)) : same_ground->sky_;
 }
 
-void ReliefShadows::add_coarser_level() {
-    const MipLevel& fine = levels_.back();
-    MipLevel coarse;
-    coarse.columns = (fine.columns - 1) / 2 + 1;
-    coarse.rows = (fine.rows - 1) / 2 + 1;
-    for (int row = 0; row < coarse.rows; ++row) {
-        for (int column = 0; column < coarse.columns; ++column) {
-            unsigned sun = 8;
-            unsigned sky = 8;
+void ReliefShadows::add_coarser_levels(MipLevels& levels) {
+    while (levels.back().columns > 2 && levels.back().rows > 2) {
+        const MipLevel& fine = levels.back();
+        MipLevel coarse{(fine.columns - 1) / 2 + 1, (fine.rows - 1) / 2 + 1, {}};
+        coarse.shares.reserve(static_cast<std::size_t>(coarse.columns) * static_cast<std::size_t>(coarse.rows));
+        for (int row = 0; row < coarse.rows; ++row) {
+            std::array<const std::uint8_t*, 3> of{};
             for (int j = -1; j <= 1; ++j) {
+                const int r = std::clamp(2 * row + j, 0, fine.rows - 1);
+                of[static_cast<std::size_t>(j + 1)] =
+                    &fine.shares[static_cast<std::size_t>(r) * static_cast<std::size_t>(fine.columns)];
+            }
+            for (int column = 0; column < coarse.columns; ++column) {
+                unsigned sum = 8;
                 for (int i = -1; i <= 1; ++i) {
                     const int c = std::clamp(2 * column + i, 0, fine.columns - 1);
-                    const int r = std::clamp(2 * row + j, 0, fine.rows - 1);
-                    const Cell& cell = fine.cells[static_cast<std::size_t>(r) * static_cast<std::size_t>(fine.columns) +
-                                                  static_cast<std::size_t>(c)];
-                    const unsigned weight = (i == 0 ? 2U : 1U) * (j == 0 ? 2U : 1U);
-                    sun += weight * cell.sun;
-                    sky += weight * cell.sky;
+                    sum += (i == 0 ? 2U : 1U) * (of[0][c] + 2U * of[1][c] + of[2][c]);
                 }
+                coarse.shares.push_back(static_cast<std::uint8_t>(sum / 16));
             }
-            coarse.cells.push_back({static_cast<std::uint8_t>(sun / 16), static_cast<std::uint8_t>(sky / 16)});
         }
+        levels.push_back(std::move(coarse));
     }
-    levels_.push_back(std::move(coarse));
 }
 
 LightVisibility ReliefShadows::at(float east_m, float north_m, float footprint_m) const {
     float step_m = spacing_m_;
     std::size_t number = 0;
-    while (number + 1 < levels_.size() && 2.0F * step_m <= footprint_m) {
+    while (number + 1 < sun_.size() && 2.0F * step_m <= footprint_m) {
         step_m *= 2.0F;
         ++number;
     }
-    const MipLevel& level = levels_[number];
+    const MipLevel& level = sun_[number];
     const float x = std::clamp(east_m / step_m, 0.0F, static_cast<float>(level.columns - 1));
     const float y = std::clamp(north_m / step_m, 0.0F, static_cast<float>(level.rows - 1));
     // A narrow ground may be reduced to a single row or column.
@@ -232,14 +245,15 @@ LightVisibility ReliefShadows::at(float east_m, float north_m, float footprint_m
     const float u = x - static_cast<float>(column);
     const float v = y - static_cast<float>(row);
     const auto width = static_cast<std::size_t>(level.columns);
-    const Cell* const south = &level.cells[static_cast<std::size_t>(row) * width + static_cast<std::size_t>(column)];
-    const Cell* const north = level.rows > 1 ? south + width : south;
-    const auto between = [&](std::uint8_t Cell::*part) {
-        const float below = static_cast<float>(south[0].*part) * (1.0F - u) + static_cast<float>(south[east].*part) * u;
-        const float above = static_cast<float>(north[0].*part) * (1.0F - u) + static_cast<float>(north[east].*part) * u;
+    const std::size_t first = static_cast<std::size_t>(row) * width + static_cast<std::size_t>(column);
+    const auto between = [&](const MipLevel& of) {
+        const std::uint8_t* const south = &of.shares[first];
+        const std::uint8_t* const north = of.rows > 1 ? south + width : south;
+        const float below = static_cast<float>(south[0]) * (1.0F - u) + static_cast<float>(south[east]) * u;
+        const float above = static_cast<float>(north[0]) * (1.0F - u) + static_cast<float>(north[east]) * u;
         return (below * (1.0F - v) + above * v) * (1.0F / 255.0F);
     };
-    return {between(&Cell::sun), between(&Cell::sky)};
+    return {between(level), between((*sky_)[number])};
 }
 
 } // namespace octant::visuals::nature

@@ -6,6 +6,7 @@
 #include <glm/vec3.hpp>
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 namespace octant::visuals::nature {
@@ -20,29 +21,30 @@ struct LightVisibility {
 /// 1,025 x 1,025 places.
 class ReliefShadows {
 public:
-    /// `to_sun` is a unit vector in world axes. The ground is needed by the constructor alone.
-    ReliefShadows(const terrain::GroundSamples& ground, const glm::dvec3& to_sun);
+    /// `to_sun` is a unit vector in world axes. The ground is needed by the constructor alone. `same_ground`: the
+    /// shadows of the same ground under another sun, with which the light in hollows is shared; null = none.
+    ReliefShadows(
+        const terrain::GroundSamples& ground, const glm::dvec3& to_sun, const ReliefShadows* same_ground = nullptr);
 
     /// At a place in metres east and north of the ground's first sample, as the mean over about `footprint_m`.
     LightVisibility at(float east_m, float north_m, float footprint_m) const;
 
 private:
-    struct Cell {
-        std::uint8_t sun = 255;
-        std::uint8_t sky = 255;
-    };
-
-    /// Every second place of the level before, as the mean of its surroundings there.
+    /// Shares of light, 255 = all of it. Each level has every second place of the one before, as the mean of its
+    /// surroundings there.
     struct MipLevel {
         int columns = 0;
         int rows = 0;
-        std::vector<Cell> cells; ///< row after row from the south
+        std::vector<std::uint8_t> shares; ///< row after row from the south
     };
 
-    void add_coarser_level();
+    using MipLevels = std::vector<MipLevel>;
+
+    static void add_coarser_levels(MipLevels& levels);
 
     float spacing_m_; ///< of the first level
-    std::vector<MipLevel> levels_;
+    MipLevels sun_;
+    std::shared_ptr<const MipLevels> sky_;
 };
 
 } // namespace octant::visuals::nature

@@ -120,3 +120,24 @@ TEST_CASE("a wide footprint sees the mean of light and shadow") {
     CHECK(wide < 0.9F);
     CHECK(std::abs(light.at(420.0F, 400.0F, 160.0F).sun - wide) < 0.1F);
 }
+
+TEST_CASE("light in hollows is that of the ground alone and is shared between suns") {
+    const auto hills = make_ground_tiles(
+        [](double x_m, double y_m) { return 60.0 * std::sin(x_m / 70.0) * std::cos(y_m / 90.0) + 0.1 * x_m; });
+    const ReliefShadows morning = light_of(hills, sun_at(90.0, 12.0));
+    const ReliefShadows alone = light_of(hills, sun_at(250.0, 20.0));
+    const ReliefShadows shared(visuals::terrain::GroundSamples(hills), sun_at(250.0, 20.0), &morning);
+    double differences = 0.0;
+    for (float x_m = 0.0F; x_m < 800.0F; x_m += 13.0F) {
+        for (float y_m = 0.0F; y_m < 800.0F; y_m += 17.0F) {
+            for (const float footprint_m : {1.0F, 40.0F, 300.0F}) {
+                const auto expected = alone.at(x_m, y_m, footprint_m);
+                const auto got = shared.at(x_m, y_m, footprint_m);
+                REQUIRE(got.sun == expected.sun);
+                REQUIRE(got.sky == expected.sky);
+                differences += std::abs(static_cast<double>(morning.at(x_m, y_m, footprint_m).sun - got.sun));
+            }
+        }
+    }
+    CHECK(differences > 100.0);
+}
