@@ -35,13 +35,33 @@ DrawnScenes drawn_scenes(const planning::Scene& scene, const scene::Settings& se
     return scenes;
 }
 
-DrawingLane::DrawingLane(const DrawnScenes& scenes)
-    : scenes_(scenes), planner_(scenes.whole, scenes.whole_settings),
-      renderer_(std::make_shared<ThreadPool>(1), first_size_px, most_samples) {
+std::unique_ptr<visuals::raster::Renderer> SharedRenderers::take() {
+    {
+        const std::scoped_lock lock(mutex_);
+        if (!idle_.empty()) {
+            std::unique_ptr<visuals::raster::Renderer> renderer = std::move(idle_.back());
+            idle_.pop_back();
+            return renderer;
+        }
+    }
+    auto made =
+        std::make_unique<visuals::raster::Renderer>(std::make_shared<ThreadPool>(1), first_size_px, most_samples);
     std::vector<scene::ModelBuffers> buffers;
-    for (const auto& model : scenes.whole.models) { buffers.push_back(model->buffers); }
-    renderer_.load_models(buffers);
-    if (scenes.whole.ground_texture) { renderer_.load_ground_texture(*scenes.whole.ground_texture); }
+    for (const auto& model : models_) { buffers.push_back(model->buffers); }
+    made->load_models(buffers);
+    if (ground_texture_) { made->load_ground_texture(*ground_texture_); }
+    return made;
+}
+
+void SharedRenderers::give_back(std::unique_ptr<visuals::raster::Renderer> renderer) {
+    const std::scoped_lock lock(mutex_);
+    idle_.push_back(std::move(renderer));
+}
+
+DrawingLane::DrawingLane(const DrawnScenes& scenes) : scenes_(scenes), planner_(scenes.whole, scenes.whole_settings) {}
+
+std::unique_ptr<visuals::raster::Renderer> DrawingLane::use(std::unique_ptr<visuals::raster::Renderer> renderer) {
+    return std::exchange(renderer_, std::move(renderer));
 }
 
 const scene::FramePlan& DrawingLane::plan_by(planning::Planner& planner, const PictureRequest& request) {
@@ -50,7 +70,7 @@ const scene::FramePlan& DrawingLane::plan_by(planning::Planner& planner, const P
     wanted.size_px = request.size_px;
     wanted.previous = request.previous;
     plan_ = &planner.plan(wanted).plan;
-    renderer_.resize(request.size_px, request.samples);
+    renderer_->resize(request.size_px, request.samples);
     return *plan_;
 }
 
@@ -62,32 +82,35 @@ const scene::FramePlan& DrawingLane::plan_alone(const PictureRequest& request) {
 }
 
 const scene::Picture& DrawingLane::draw() {
-    renderer_.draw(*plan_);
-    renderer_.finish_and_read(picture_);
+    renderer_->draw(*plan_);
+    renderer_->finish_and_read(picture_);
     return picture_;
 }
 
-void DrawingLane::draw_deep(std::span<std::uint16_t> colours) { renderer_.draw_deep(*plan_, colours); }
+void DrawingLane::draw_deep(std::span<std::uint16_t> colours) { renderer_->draw_deep(*plan_, colours); }
 
-void DrawingLane::prepare_truth() { renderer_.prepare_truth(*plan_); }
+void DrawingLane::prepare_truth() { renderer_->prepare_truth(*plan_); }
 
 void DrawingLane::draw_truth(const scene::TruthArrays& to, std::span<const glm::vec2> at_px) {
-    renderer_.draw_truth(*plan_, to, at_px);
+    renderer_->draw_truth(*plan_, to, at_px);
 }
 
 std::unique_ptr<DrawingLane> DrawingLanes::take() {
+    std::unique_ptr<DrawingLane> lane;
     {
         const std::scoped_lock lock(mutex_);
         if (!idle_.empty()) {
-            std::unique_ptr<DrawingLane> lane = std::move(idle_.back());
+            lane = std::move(idle_.back());
             idle_.pop_back();
-            return lane;
         }
     }
-    return std::make_unique<DrawingLane>(scenes_);
+    if (!lane) { lane = std::make_unique<DrawingLane>(scenes_); }
+    lane->use(renderers_->take());
+    return lane;
 }
 
 void DrawingLanes::give_back(std::unique_ptr<DrawingLane> lane) {
+    renderers_->give_back(lane->use(nullptr));
     const std::scoped_lock lock(mutex_);
     idle_.push_back(std::move(lane));
 }

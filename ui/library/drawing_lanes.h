@@ -20,6 +20,7 @@
 #include <mutex>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace octant::ui::library {
@@ -45,8 +46,31 @@ struct PictureRequest {
     std::optional<visuals::planning::PreviousFrame> previous = std::nullopt;
 };
 
-/// What one thread needs to draw pictures of a scene: a planner and a renderer of its own, with their memory. Pictures
-/// do not depend on those before them.
+/// The renderers of all scenes with the same models and ground texture, which hold copies of these: as many as have
+/// drawn at the same time. For several threads at once.
+class SharedRenderers {
+public:
+    /// For scenes with the models and the texture of this one.
+    explicit SharedRenderers(const visuals::planning::Scene& scene)
+        : models_(scene.models), ground_texture_(scene.ground_texture) {}
+
+    bool are_for(const visuals::planning::Scene& scene) const {
+        return scene.models == models_ && scene.ground_texture == ground_texture_;
+    }
+
+    /// One that nobody else draws with, until it is given back.
+    std::unique_ptr<visuals::raster::Renderer> take();
+    void give_back(std::unique_ptr<visuals::raster::Renderer> renderer);
+
+private:
+    std::vector<std::shared_ptr<const visuals::planning::AircraftModel>> models_;
+    std::shared_ptr<const visuals::scene::GroundTexture> ground_texture_;
+    std::mutex mutex_;
+    std::vector<std::unique_ptr<visuals::raster::Renderer>> idle_;
+};
+
+/// What one thread needs to draw pictures of a scene: a planner of its own, with its memory, and while it draws a
+/// renderer. Pictures do not depend on those before them.
 class DrawingLane {
 public:
     /// The scenes must outlive it. Loading work: milliseconds.
@@ -56,6 +80,9 @@ public:
     DrawingLane(DrawingLane&&) = delete;
     DrawingLane& operator=(DrawingLane&&) = delete;
     ~DrawingLane() = default;
+
+    /// With which it draws from now on. Returns the one before; null = none.
+    std::unique_ptr<visuals::raster::Renderer> use(std::unique_ptr<visuals::raster::Renderer> renderer);
 
     /// Plans a picture. Valid until the next plan.
     const visuals::scene::FramePlan& plan(const PictureRequest& request);
@@ -84,7 +111,7 @@ private:
     const DrawnScenes& scenes_;
     visuals::planning::Planner planner_;
     std::optional<visuals::planning::Planner> alone_planner_; ///< made when it is first asked for
-    visuals::raster::Renderer renderer_;
+    std::unique_ptr<visuals::raster::Renderer> renderer_;
     visuals::scene::Picture picture_;
     const visuals::scene::FramePlan* plan_ = nullptr;
 };
@@ -92,7 +119,11 @@ private:
 /// The lanes of a scene. Grows to the number of threads that have drawn at the same time.
 class DrawingLanes {
 public:
-    explicit DrawingLanes(DrawnScenes scenes) : scenes_(std::move(scenes)) {}
+    /// `renderers`: for these scenes.
+    DrawingLanes(DrawnScenes scenes, std::shared_ptr<SharedRenderers> renderers)
+        : scenes_(std::move(scenes)), renderers_(std::move(renderers)) {}
+
+    const std::shared_ptr<SharedRenderers>& renderers() const { return renderers_; }
 
     /// Calls work(index, lane) once for each index below `count` on at most `threads` threads, this one among them:
     /// each takes the next index that is left, and draws with a lane of its own. `is_stopped`, if not empty, is asked
@@ -106,6 +137,7 @@ private:
     void give_back(std::unique_ptr<DrawingLane> lane);
 
     DrawnScenes scenes_;
+    std::shared_ptr<SharedRenderers> renderers_;
     std::mutex mutex_;
     std::vector<std::unique_ptr<DrawingLane>> idle_;
 };

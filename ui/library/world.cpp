@@ -12,11 +12,13 @@
 #include "ui/library/scene_file.h"
 #include "ui/settings/setting_rows.h"
 #include "ui/world/scene_ground.h"
+#include "visuals/scene/detail_pattern.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <deque>
 #include <fmt/format.h>
 #include <functional>
@@ -131,14 +133,19 @@ ui::settings::RunSettings world_settings(ui::settings::RunSettings settings) {
     return settings;
 }
 
-/// Makes what the ground makes when it is first asked for, on two threads, instead of in the first picture.
+/// Makes what is made when it is first asked for, on two threads, instead of in the first picture.
 void finish_loading(const ui::settings::RunSettings& settings, const planning::Scene& scene) {
     constexpr bool on_two_threads = true;
-    const auto roads = [&] {
+    const auto roads_and_pattern = [&] {
+        if (settings.ground.near_detail) { scene::detail_mip_levels(); }
         return settings.ground.roads && !scene.ground_texture ? scene.ground->road_network() : nullptr;
     };
-    const auto land = [&] { return settings.air.sky ? &scene.ground->backdrop() : nullptr; };
-    run_both(on_two_threads, roads, land);
+    // The land has the colours of the ground, which need its shadows.
+    const auto shadows_and_land = [&] {
+        scene.ground->mean_colour();
+        return settings.air.sky ? &scene.ground->backdrop() : nullptr;
+    };
+    run_both(on_two_threads, roads_and_pattern, shadows_and_land);
 }
 
 std::shared_ptr<Loaded> load(const ui::settings::RunSettings& settings, const Loaded* shared,
@@ -151,7 +158,11 @@ std::shared_ptr<Loaded> load(const ui::settings::RunSettings& settings, const Lo
     for (const std::string& note : loaded->world.notes) { tell(on_note, note); }
     loaded->objects = objects_of(loaded->world.scene, loaded->settings);
     finish_loading(loaded->settings, loaded->world.scene);
-    loaded->lanes.emplace(library::drawn_scenes(loaded->world.scene, loaded->settings));
+    const planning::Scene& scene = loaded->world.scene;
+    loaded->lanes.emplace(
+        library::drawn_scenes(scene, loaded->settings), shared != nullptr && shared->lanes->renderers()->are_for(scene)
+                                                            ? shared->lanes->renderers()
+                                                            : std::make_shared<library::SharedRenderers>(scene));
     return loaded;
 }
 
@@ -234,8 +245,8 @@ public:
     }
 
     library::CameraPicture of_camera(std::size_t picture, const Pose& pose, const RenderOptions& options) const {
-        return {pose, states_.of(picture), previous_states_.of(picture), options.noise_seed,
-            options.first_index + picture};
+        return {
+            pose, states_.of(picture), previous_states_.of(picture), options.noise_seed, options.first_index + picture};
     }
 
 private:
@@ -286,7 +297,10 @@ int thread_count(int wanted) {
 void write_rgb(const scene::Picture& picture, std::uint8_t* rgb) {
     const std::uint8_t* rgba = picture.rgba.data();
     const std::size_t pixels = picture.rgba.size() / 4;
-    for (std::size_t i = 0; i < pixels; ++i) {
+    std::size_t i = 0;
+    // Four bytes at a time, of which the last one is the next pixel's.
+    for (; i + 1 < pixels; ++i) { std::memcpy(rgb + 3 * i, rgba + 4 * i, 4); }
+    for (; i < pixels; ++i) {
         rgb[3 * i] = rgba[4 * i];
         rgb[3 * i + 1] = rgba[4 * i + 1];
         rgb[3 * i + 2] = rgba[4 * i + 2];

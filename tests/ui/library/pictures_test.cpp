@@ -182,6 +182,22 @@ TEST_CASE("copies share all but their states") {
     CHECK_FALSE(copy.states()[0].is_present);
 }
 
+TEST_CASE("a further world under another sun draws what one of its own draws") {
+    const auto settings_of = [](double sun_elevation_deg) {
+        WorldSettings settings{.aircraft = {"f15-detailed"}, .triangles = 2000};
+        settings.sun_elevation_deg = sun_elevation_deg;
+        return settings;
+    };
+    const World noon(settings_of(60.0));
+    const Camera camera{64, 48, 60.0};
+    const std::vector<Shot> shots = jumping_shots(noon, 6);
+    const Pictures at_noon = drawn(noon, camera, shots, in_order(6), 1);
+    const Pictures expected = drawn(World(settings_of(12.0)), camera, shots, in_order(6), 1);
+    CHECK(drawn(World(settings_of(12.0), noon), camera, shots, in_order(6), 2) == expected);
+    CHECK(at_noon != expected);
+    CHECK(drawn(noon, camera, shots, in_order(6), 1) == at_noon);
+}
+
 TEST_CASE("a child of fork() goes on drawing") {
     const World world({.aircraft = {"f15"}, .triangles = 1000});
     const Camera camera{32, 32, 60.0};
