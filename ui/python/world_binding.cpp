@@ -43,15 +43,19 @@ private:
     std::shared_ptr<const World> world_;
 };
 
-/// Loads a world without Python's lock. Returns it with the notes for the user.
+/// Loads a world without Python's lock. `shared`: with which it shares what both have in common; null = none. Returns it
+/// with the notes for the user.
 std::pair<std::unique_ptr<OpenWorld>, std::vector<std::string>> load(const std::string& terrain,
-    const std::vector<std::string>& aircraft, const std::vector<std::pair<std::string, std::string>>& settings) {
+    const std::vector<std::string>& aircraft, const std::vector<std::pair<std::string, std::string>>& settings,
+    const OpenWorld* shared) {
     std::vector<std::string> notes;
+    const std::shared_ptr<const World> other = shared == nullptr ? nullptr : shared->get();
     const py::gil_scoped_release unlocked;
-    auto world = std::make_shared<const World>(WorldSettings{
+    const WorldSettings wanted{
         .terrain = terrain, .aircraft = aircraft, .settings = settings, .on_note = [&notes](std::string_view note) {
             notes.emplace_back(note);
-        }});
+        }};
+    auto world = other ? std::make_shared<const World>(wanted, *other) : std::make_shared<const World>(wanted);
     return {std::make_unique<OpenWorld>(std::move(world)), std::move(notes)};
 }
 
@@ -318,7 +322,7 @@ void bind_world(py::module_& module) {
                 world->export_scene(path, camera, poses.front());
             },
             py::arg("path"), py::arg("camera"), py::arg("eye"), py::arg("look"), "As OBJ.");
-    module.def("load", &load, py::arg("terrain"), py::arg("aircraft"), py::arg("settings"),
+    module.def("load", &load, py::arg("terrain"), py::arg("aircraft"), py::arg("settings"), py::arg("shared"),
         "A world and the notes for its user.");
 }
 

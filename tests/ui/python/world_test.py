@@ -49,6 +49,22 @@ class States(unittest.TestCase):
         self.assertGreater(count_of(1, frames[0]), 10)
         self.assertEqual(count_of(1, frames[1]), 0)
 
+    def test_other_settings_share_a_world(self):
+        named = {"terrain": "hills", "aircraft": ["f15"], "triangles": 1000}
+        eye = world.ground.random_positions(3, seed=5)
+        draw = lambda of: of.render(camera, eye, behind).rgb
+        noon = octant.World(**named, sun_elevation_deg=60)
+        evening = noon.with_settings(sun_elevation_deg=8)
+        np.testing.assert_array_equal(draw(evening), draw(octant.World(**named, sun_elevation_deg=8)))
+        np.testing.assert_array_equal(draw(evening.with_settings(sun_elevation_deg=60)), draw(noon))
+        self.assertGreater((draw(evening) != draw(noon)).sum(), 1000)
+        with self.assertRaises(octant.Error):
+            noon.with_settings(sun_elevation_deg=600)
+        noon.close()
+        draw(evening)
+        with self.assertRaises(ValueError):
+            noon.with_settings(sun_elevation_deg=20)
+
     def test_states_of_each_picture(self):
         position_m = np.zeros((2, 1, 3)) + [0, 60, 2000]
         position_m[1, 0, 2] = 9000

@@ -437,8 +437,13 @@ class World:
 
     def __init__(self, terrain="hills", aircraft=(), *, sun_elevation_deg=None, triangles=None, **settings):
         aircraft = [aircraft] if isinstance(aircraft, (str, os.PathLike)) else list(aircraft)
-        pairs = _setting_words({"sun_elevation_deg": sun_elevation_deg, "triangles": triangles, **settings})
-        self._world, notes = _octant.load(os.fspath(terrain), [os.fspath(each) for each in aircraft], pairs)
+        named = {"sun_elevation_deg": sun_elevation_deg, "triangles": triangles}
+        self._made_of = (os.fspath(terrain), [os.fspath(each) for each in aircraft], {**named, **settings})
+        self._load(None)
+
+    def _load(self, shared):
+        terrain, aircraft, settings = self._made_of
+        self._world, notes = _octant.load(terrain, aircraft, _setting_words(settings), shared)
         self._objects = None
         _warn(notes)
 
@@ -462,9 +467,25 @@ class World:
         copy = World.__new__(World)
         copy._world = self._opened().copy()
         copy._objects = self._objects
+        copy._made_of = self._made_of
         return copy
 
     __copy__ = copy
+
+    def with_settings(self, **changes):
+        """A world of the same terrain and aircraft under settings of which some are others, with the states that it
+        begins with. Takes what World() takes by keyword. What both have in common is shared and not loaded again: under
+        another sun heights, roads and aircraft, which leaves some hundredths of a second and 5 MB.
+
+        >>> import octant
+        >>> with octant.World(terrain="hills", scenery=False, sun_elevation_deg=50) as noon:
+        ...     evening = noon.with_settings(sun_elevation_deg=6)
+        """
+        terrain, aircraft, settings = self._made_of
+        other = World.__new__(World)
+        other._made_of = (terrain, aircraft, {**settings, **changes})
+        other._load(self._opened())
+        return other
 
     @property
     def ground(self):
