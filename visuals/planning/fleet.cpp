@@ -47,10 +47,10 @@ scene::PolygonTints model_tints(const PlacedAircraft& aircraft, scene::ModelDisp
     return {colour, colour};
 }
 
-/// Writes the matrices of an aircraft's parts in a state, with the eye subtracted.
-void place_all_parts(const PlacedAircraft& aircraft, const sim::AircraftState& state,
+/// Writes the matrices of the parts of an aircraft, drawn as a model, in a state, with the eye subtracted.
+void place_all_parts(const PlacedAircraft& aircraft, const AircraftModel& model, const sim::AircraftState& state,
     std::span<const ArticulatedPart> articulated_parts, const glm::dvec3& eye_m, std::span<glm::dmat4> parts) {
-    const models::polygons::PolygonModel& polygons = aircraft.model->polygons;
+    const models::polygons::PolygonModel& polygons = model.polygons;
     place_parts(polygons, body_to_eye_world(state, eye_m), state.time_s, parts);
     const models::polygons::PolygonModel& numbered =
         aircraft.far_model == nullptr ? polygons : aircraft.near_model->polygons;
@@ -83,6 +83,7 @@ Fleet::Fleet(const Scene& scene, const scene::Settings& settings) : scene_(scene
                         : nullptr);
     }
     last_.resize(placed_.size());
+    far_parts_.resize(placed_.size());
 }
 
 /// Adds an aircraft of a model, with memory for its parts and those of its far model.
@@ -134,7 +135,7 @@ void Fleet::place_before(const FrameView& view, const PreviousFrame& before, std
         sim::AircraftState state = sunk(before.states[number], eye_m, view.earth_radius_m);
         if (is_cockpit) { state.position_m = eye_m; }
         placed_parts.resize(aircraft.parts.size());
-        place_all_parts(aircraft, state, before.articulated_parts, eye_m, placed_parts);
+        place_all_parts(aircraft, *aircraft.model, state, before.articulated_parts, eye_m, placed_parts);
         std::ranges::transform(
             placed_parts, parts.begin() + aircraft.first_part, [](const glm::dmat4& part) { return glm::mat4(part); });
     }
@@ -159,7 +160,14 @@ void Fleet::place(PlacedAircraft& aircraft, const sim::AircraftState& state,
     const AircraftModel& model = *aircraft.model;
     const auto parts = std::span(parts_).subspan(aircraft.first_part, model.polygons.pivots.size() + 1);
     aircraft.parts = parts;
-    place_all_parts(aircraft, state, articulated_parts, eye_m, parts);
+    place_all_parts(aircraft, model, state, articulated_parts, eye_m, parts);
+    aircraft.far_parts = {};
+    if (aircraft.far_model != nullptr && !is_far(aircraft)) {
+        std::vector<glm::dmat4>& far_parts = far_parts_[aircraft.number];
+        far_parts.resize(aircraft.far_model->polygons.pivots.size() + 1);
+        place_all_parts(aircraft, *aircraft.far_model, state, articulated_parts, eye_m, far_parts);
+        aircraft.far_parts = far_parts;
+    }
     const glm::dvec3 eye_in_body_m = draworder::eye_in_body(eye_m, state.position_m, state.body_to_world);
     aircraft.cell = model.order.has_one_cell_per_eye() ? model.order.cell_of(eye_in_body_m) : 0;
     choose_representation(aircraft, view);

@@ -94,6 +94,7 @@ private:
     std::vector<PlacedAircraft> placed_;
     std::vector<OrientedBox> bounding_boxes_;
     std::vector<glm::dmat4> parts_;
+    std::vector<std::vector<glm::dmat4>> far_parts_; ///< PlacedAircraft::far_parts of each of placed_.
     draworder::DrawOrder::Walk walk_;
     std::vector<std::unique_ptr<RefinedAircraft>> refined_;
     std::vector<LastDetail> last_; ///< One for each of placed_.

@@ -15,6 +15,8 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
+#include <limits>
 #include <numeric>
 #include <optional>
 #include <tuple>
@@ -340,6 +342,59 @@ ConvexVolume shadow_volume_of(const OrientedBox& hull, const glm::dvec3& to_sun,
     return volume;
 }
 
+} // namespace
+
+/// The extent of polygons across the light: in two directions square to it and to one another. What light carries from
+/// one polygon to another has places in both extents.
+class LightExtents {
+public:
+    /// Forgets all polygons.
+    void begin(const glm::dvec3& to_sun) {
+        const glm::dvec3 aside = std::abs(to_sun.z) < 0.9 ? glm::dvec3(0.0, 0.0, 1.0) : glm::dvec3(1.0, 0.0, 0.0);
+        across_ = glm::normalize(glm::cross(to_sun, aside));
+        along_ = glm::cross(to_sun, across_);
+        ends_m_.clear();
+    }
+
+    void add(const ViewPolygon& polygon) { ends_m_.push_back(ends_of(polygon)); }
+
+    /// Fills in the numbers of those polygons whose extents overlap that of another.
+    void find(const ViewPolygon& other, std::vector<std::uint32_t>& found) const {
+        constexpr double margin_m = 1e-3; // far more than rounding moves a corner
+        const Ends wanted = ends_of(other);
+        found.clear();
+        for (std::size_t i = 0; i < ends_m_.size(); ++i) {
+            const Ends& own = ends_m_[i];
+            if (own.max_m.x >= wanted.min_m.x - margin_m && own.min_m.x <= wanted.max_m.x + margin_m &&
+                own.max_m.y >= wanted.min_m.y - margin_m && own.min_m.y <= wanted.max_m.y + margin_m) {
+                found.push_back(static_cast<std::uint32_t>(i));
+            }
+        }
+    }
+
+private:
+    struct Ends {
+        glm::dvec2 min_m{std::numeric_limits<double>::infinity()};
+        glm::dvec2 max_m{-std::numeric_limits<double>::infinity()};
+    };
+
+    Ends ends_of(const ViewPolygon& polygon) const {
+        Ends ends;
+        for (const ViewVertex& corner : polygon) {
+            const glm::dvec2 at_m(glm::dot(across_, corner.at_m), glm::dot(along_, corner.at_m));
+            ends.min_m = glm::min(ends.min_m, at_m);
+            ends.max_m = glm::max(ends.max_m, at_m);
+        }
+        return ends;
+    }
+
+    glm::dvec3 across_{1.0, 0.0, 0.0};
+    glm::dvec3 along_{0.0, 1.0, 0.0};
+    std::vector<Ends> ends_m_;
+};
+
+namespace {
+
 /// The vertical plane through an edge of a polygon that is counter-clockwise from above; the polygon is in front of it.
 Plane side_of(const glm::dvec3& from_m, const glm::dvec3& to_m) {
     const glm::dvec3 edge_m = to_m - from_m;
@@ -352,7 +407,8 @@ Plane side_of(const glm::dvec3& from_m, const glm::dvec3& to_m) {
 /// Shadows of aircraft: each polygon that faces the sun is projected along the sunlight onto each triangle of the
 /// ground below and clipped to that triangle. The pieces are opaque and have the triangle's own colours, darkened, so
 /// that overlapping pieces change nothing; decals have shadows of their own. Only the first ground on the way of the
-/// light has the shadow; ground casts no shadow here.
+/// light has the shadow; ground casts no shadow here. The volume in which ground is looked for is that of the
+/// aircraft's own model.
 class ShadowCaster {
 public:
     explicit ShadowCaster(PieceList& pieces) : pieces_(pieces) {}
@@ -363,7 +419,7 @@ public:
     }
 
     /// GroundPieces::cast().
-    void cast(const PlacedAircraft& aircraft, const OrientedBox& hull, const glm::dvec3& to_sun) {
+    void cast(const PlacedAircraft& aircraft, const OrientedBox& hull, const glm::dvec3& to_sun, double max_error_px) {
         const bool is_high_enough = to_sun.z >= std::sin(rad_from_deg(min_sun_elevation_deg));
         if (!is_high_enough || ground_->triangles.indices.empty()) { return; }
         to_sun_ = to_sun;
@@ -393,7 +449,16 @@ public:
                 return may_intersect(look.volume, min_m - look.eye_m, max_m - look.eye_m);
             },
             candidates_);
-        collect_faces(aircraft);
+        if (candidates_.empty()) { return; }
+        // The shadow's error is that of the model, drawn out along the light.
+        const double nearest_m = std::max(glm::length(position_m) - reach_m, 0.0);
+        const bool far_model_casts = !aircraft.far_parts.empty() &&
+                                     aircraft.far_error_m / to_sun_.z <= max_error_px * view.pixel_rad * nearest_m;
+        if (far_model_casts) {
+            collect_faces(*aircraft.far_model, aircraft.far_parts);
+        } else {
+            collect_faces(*aircraft.model, aircraft.parts);
+        }
         for (const std::uint32_t candidate : candidates_) {
             place_triangle(ground_->triangles, candidate, triangle_);
             const glm::dvec3& a = triangle_[0].at_m;
@@ -405,7 +470,6 @@ public:
 
 private:
     struct Face {
-        Plane plane;
         std::size_t first = 0;
         std::size_t count = 0;
     };
@@ -439,15 +503,17 @@ private:
     }
 
     /// Collects the placed polygons that face the sun.
-    void collect_faces(const PlacedAircraft& aircraft) {
+    void collect_faces(const AircraftModel& model, std::span<const glm::dmat4> parts) {
         faces_.clear();
         face_corners_.clear();
-        const auto count = static_cast<std::uint32_t>(aircraft.model->polygons.polygons.size());
+        face_extents_.begin(to_sun_);
+        const auto count = static_cast<std::uint32_t>(model.polygons.polygons.size());
         for (std::uint32_t polygon = 0; polygon < count; ++polygon) {
-            place_polygon(aircraft, polygon, part_);
+            place_polygon(model, parts, polygon, part_);
             const Plane plane = plane_of(part_);
             if (glm::dot(plane.normal, to_sun_) > 0.0) {
-                faces_.push_back({plane, face_corners_.size(), part_.size()});
+                faces_.push_back({face_corners_.size(), part_.size()});
+                face_extents_.add(part_);
                 face_corners_.insert(face_corners_.end(), part_.begin(), part_.end());
             }
         }
@@ -464,7 +530,15 @@ private:
         shadow_parts_.clear();
         shadow_ends_.clear();
         const std::size_t first = pieces_.indices.size();
-        for (const Face& face : faces_) {
+        face_extents_.find(triangle_, faces_on_triangle_);
+        if (faces_on_triangle_.empty()) { return; }
+        const std::uint32_t* const corners_of_triangle = &ground_->triangles.indices[std::size_t{3} * triangle];
+        for (std::size_t i = 0; i < 3; ++i) {
+            corner_colours_[i] = unpacked(ground_->triangles.vertices[corners_of_triangle[i]].colour);
+        }
+        surface_ = scene::surface_of(ground_->triangles, ground_->water, corners_of_triangle);
+        for (const std::uint32_t number : faces_on_triangle_) {
+            const Face& face = faces_[number];
             const auto corners = std::span(face_corners_).subspan(face.first, face.count);
             part_.assign(corners.begin(), corners.end());
             clip_to_front(part_, plane, 0.0, scratch_);
@@ -473,7 +547,7 @@ private:
             shadow_parts_.insert(shadow_parts_.end(), part_.begin(), part_.end());
             for (std::size_t i = 0; i < 3 && !part_.empty(); ++i) { clip_to_front(part_, sides[i], 0.0, scratch_); }
             if (part_.size() >= 3) {
-                add_piece(triangle);
+                add_piece();
                 shadow_ends_.push_back(shadow_parts_.size());
             } else {
                 shadow_parts_.resize(before);
@@ -483,9 +557,8 @@ private:
         if (!pieces_.decals.empty() && !shadow_ends_.empty()) { add_on_decals(triangle); }
     }
 
-    /// Adds part_ as a fan with the triangle's colours, darkened.
-    void add_piece(std::uint32_t triangle) {
-        const std::uint32_t* corner = &ground_->triangles.indices[std::size_t{3} * triangle];
+    /// Adds part_ as a fan with the colours of triangle_, darkened.
+    void add_piece() {
         const glm::dvec3& a = triangle_[0].at_m;
         const glm::dvec3& b = triangle_[1].at_m;
         const glm::dvec3& c = triangle_[2].at_m;
@@ -493,13 +566,12 @@ private:
         for (const ViewVertex& at : part_) {
             const double share_a = signed_area2(at.at_m, b, c) / whole;
             const double share_b = signed_area2(a, at.at_m, c) / whole;
-            const glm::vec4 colour =
-                unpacked(ground_->triangles.vertices[corner[0]].colour) * static_cast<float>(share_a) +
-                unpacked(ground_->triangles.vertices[corner[1]].colour) * static_cast<float>(share_b) +
-                unpacked(ground_->triangles.vertices[corner[2]].colour) * static_cast<float>(1.0 - share_a - share_b);
+            const glm::vec4 colour = corner_colours_[0] * static_cast<float>(share_a) +
+                                     corner_colours_[1] * static_cast<float>(share_b) +
+                                     corner_colours_[2] * static_cast<float>(1.0 - share_a - share_b);
             pieces_.vertices->push_back({glm::vec3(at.at_m), shaded(colour, ground_->has_light_in_alpha)});
         }
-        pieces_.add_fan(part_.size(), scene::surface_of(ground_->triangles, ground_->water, corner));
+        pieces_.add_fan(part_.size(), surface_);
     }
 
     /// Adds the shadows on a triangle again, clipped to its decals and in their darkened colours.
@@ -544,7 +616,11 @@ private:
     std::vector<std::uint32_t> candidates_;
     std::vector<Face> faces_;
     std::vector<ViewVertex> face_corners_;
+    LightExtents face_extents_;                    ///< Of faces_.
+    std::vector<std::uint32_t> faces_on_triangle_; ///< Those that may cast a shadow on triangle_.
     ViewPolygon triangle_;
+    std::array<glm::vec4, 3> corner_colours_{}; ///< Of triangle_.
+    models::SurfaceClass surface_ = models::SurfaceClass::Terrain;
     ViewPolygon part_;
     /// The shadows in one triangle's plane that intersect it, not clipped to it, and the end of each in that list.
     std::vector<ViewVertex> shadow_parts_;
@@ -575,8 +651,9 @@ void GroundPieces::lay(nature::GroundDecoration& decoration, int max_triangles) 
     memory_->clipper.lay(decoration, max_triangles);
 }
 
-void GroundPieces::cast(const PlacedAircraft& aircraft, const OrientedBox& hull, const glm::dvec3& to_sun) {
-    memory_->caster.cast(aircraft, hull, to_sun);
+void GroundPieces::cast(
+    const PlacedAircraft& aircraft, const OrientedBox& hull, const glm::dvec3& to_sun, double max_error_px) {
+    memory_->caster.cast(aircraft, hull, to_sun, max_error_px);
 }
 
 GroundFrame GroundPieces::finish() {

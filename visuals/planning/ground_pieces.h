@@ -60,8 +60,9 @@ public:
     void lay(nature::GroundDecoration& decoration, int max_triangles);
 
     /// Adds the shadow of an aircraft inside the box `hull`, unless it is smaller than 2 pixels or out of view, or the
-    /// sun is so low that shadows would be longer than 19 heights. `to_sun`: unit vector, world axes.
-    void cast(const PlacedAircraft& aircraft, const OrientedBox& hull, const glm::dvec3& to_sun);
+    /// sun is so low that shadows would be longer than 19 heights. `to_sun`: unit vector, world axes. The far model
+    /// casts it where the error of its shadow is at most `max_error_px`.
+    void cast(const PlacedAircraft& aircraft, const OrientedBox& hull, const glm::dvec3& to_sun, double max_error_px);
 
     /// The ground with all pieces since begin(); valid until the next call of another member.
     GroundFrame finish();

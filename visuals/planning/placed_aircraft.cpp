@@ -36,12 +36,15 @@ std::size_t pivot_in(
 } // namespace
 
 void place_polygon(const PlacedAircraft& aircraft, std::uint32_t polygon, ViewPolygon& placed) {
-    const models::polygons::PolygonModel& model = aircraft.model->polygons;
-    const std::uint32_t first_vertex = aircraft.model->first_vertices[polygon];
-    const glm::dmat4& part = aircraft.parts[aircraft.model->buffers.vertices[first_vertex].part];
+    place_polygon(*aircraft.model, aircraft.parts, polygon, placed);
+}
+
+void place_polygon(
+    const AircraftModel& model, std::span<const glm::dmat4> parts, std::uint32_t polygon, ViewPolygon& placed) {
+    const glm::dmat4& part = parts[model.buffers.vertices[model.first_vertices[polygon]].part];
     placed.clear();
-    for (const std::uint32_t vertex : model.corners(polygon)) {
-        placed.push_back({glm::dvec3(part * glm::dvec4(model.vertices_m[vertex], 1.0)), false});
+    for (const std::uint32_t vertex : model.polygons.corners(polygon)) {
+        placed.push_back({glm::dvec3(part * glm::dvec4(model.polygons.vertices_m[vertex], 1.0)), false});
     }
 }
 

@@ -37,6 +37,8 @@ struct PlacedAircraft : ViewedAircraft {
     std::uint32_t model_index = 0;
     /// Body axes to world axes with the eye at the origin: the body, then each pivot turned.
     std::span<const glm::dmat4> parts;
+    /// The same of far_model where the aircraft is drawn as near_model; empty if it has none.
+    std::span<const glm::dmat4> far_parts;
     /// True if the aircraft is absent (AircraftState::is_present): nothing of it is drawn.
     bool is_absent = false;
     /// The cell of the draw order in which the eye is; 0 unless DrawOrder::has_one_cell_per_eye.
@@ -70,6 +72,10 @@ inline bool is_refined(const PlacedAircraft& aircraft) {
 
 /// Writes the corners of a polygon of an aircraft, in world axes with the eye at the origin, to `placed`.
 void place_polygon(const PlacedAircraft& aircraft, std::uint32_t polygon, ViewPolygon& placed);
+
+/// The same of a model whose parts are placed by these matrices.
+void place_polygon(
+    const AircraftModel& model, std::span<const glm::dmat4> parts, std::uint32_t polygon, ViewPolygon& placed);
 
 /// The draw of a whole aircraft; valid as long as the aircraft and its ranges.
 scene::AircraftDraw draw_of(const PlacedAircraft& aircraft);

@@ -280,7 +280,8 @@ private:
         }
         const auto bounding_boxes = fleet_.bounding_boxes();
         for (std::size_t i = 0; settings_.surface.shadows && i < bounding_boxes.size(); ++i) {
-            pieces_.cast(fleet_.placed()[i], bounding_boxes[i], atmosphere_->to_sun());
+            pieces_.cast(
+                fleet_.placed()[i], bounding_boxes[i], atmosphere_->to_sun(), settings_.surface.aircraft_error_px);
         }
         const GroundFrame ground = pieces_.finish();
         counts.painted_triangles = pieces_.decal_triangles();

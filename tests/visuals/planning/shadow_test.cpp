@@ -192,3 +192,33 @@ TEST_CASE("a low sun, a shadow out of view or too small and a switch give no sha
     CHECK(shadow_triangles([](Shadowed& w) { w.camera = camera_looking_at({-60, -80, 90}, {-200, -300, 0}); }) == 0);
     CHECK(shadow_triangles([](Shadowed& w) { w.camera = camera_looking_at({0, 0, 6000}, {0, 0, 0}); }) == 0);
 }
+
+TEST_CASE("the far model casts the shadow where its error cannot be seen there, and nowhere else") {
+    constexpr glm::dvec3 own_half_m(8.0, 2.0, 1.0);
+    constexpr glm::dvec3 far_half_m(7.8, 1.9, 0.9);
+    Settings settings = plain_settings();
+    settings.surface.shadows = true;
+    settings.air.sun_elevation_deg = 80.0;
+    const auto shadow_of = [&](const glm::dvec3& half_m, bool has_far_model, double height_m) {
+        Scene scene;
+        scene.ground = cell_ground(40, 10.0, rolling_m);
+        scene.add_model(convex_aircraft(box_model(half_m)));
+        scene.aircraft = {0};
+        if (has_far_model) {
+            scene.add_model(convex_aircraft(box_model(far_half_m)));
+            scene.far_models.push_back({0, 1, 0.3});
+        }
+        Planner planner(scene, settings);
+        const std::vector states{state_at({0.0, 0.0, height_m})};
+        const Camera camera = camera_looking_at({0.0, -25.0, height_m + 10.0}, {0.0, -20.0, 0.0});
+        std::vector<glm::vec3> corners_m;
+        for (const auto& vertex : planner.plan({camera, states}).plan.shadow_vertices) {
+            corners_m.push_back(vertex.position_m);
+        }
+        return corners_m;
+    };
+    for (const double height_m : {30.0, 400.0}) { REQUIRE(shadow_of(own_half_m, true, height_m).size() > 8); }
+    CHECK(shadow_of(own_half_m, true, 30.0) == shadow_of(own_half_m, false, 30.0));
+    CHECK(shadow_of(own_half_m, true, 400.0) == shadow_of(far_half_m, false, 400.0));
+    CHECK(shadow_of(far_half_m, false, 400.0) != shadow_of(own_half_m, false, 400.0));
+}
