@@ -2,7 +2,6 @@
 
 #include <glm/vec3.hpp>
 
-#include <cmath>
 #include <cstdint>
 
 namespace octant::models {
@@ -22,8 +21,10 @@ struct ColourVertex {
 /// Packs display values 0..1 (clamped, rounded) with full alpha.
 inline std::uint32_t packed_colour(const glm::vec3& rgb) {
     const auto byte = [](float part) {
-        const float clamped = part < 0.0F ? 0.0F : (part > 1.0F ? 1.0F : part);
-        return static_cast<std::uint32_t>(std::lround(clamped * 255.0F));
+        const float scaled = 255.0F * (part > 0.0F ? (part < 1.0F ? part : 1.0F) : 0.0F);
+        // As std::lround(), which is a function of the C library.
+        const auto below = static_cast<std::uint32_t>(scaled);
+        return below + (scaled - static_cast<float>(below) >= 0.5F ? 1U : 0U);
     };
     return byte(rgb.x) | byte(rgb.y) << 8U | byte(rgb.z) << 16U | 0xff000000U;
 }

@@ -1,6 +1,7 @@
 #include "visuals/planning/sky.h"
 
 #include "sim/base/axes.h"
+#include "sim/base/float4.h"
 #include "sim/base/units.h"
 #include "visuals/landscape/ground.h"
 #include "visuals/landscape/ground_palette.h"
@@ -12,6 +13,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <cstring>
 #include <optional>
 #include <span>
 #include <utility>
@@ -202,33 +204,28 @@ void Sky::keep_triangles_in(const Frustum& frustum, std::size_t vertices, std::s
     constexpr float margin = 1e-3F; // of the distance: far more than rounding moves a corner
     std::array<glm::vec3, 4> inward{};
     std::ranges::transform(frustum, inward.begin(), [](const glm::dvec3& normal) { return glm::vec3(normal); });
-    // One coordinate after the other, so that the compiler computes many vertices at once.
-    for (std::vector<float>& each : coordinates_m_) { each.resize(vertices); }
-    for (std::size_t i = 0; i < vertices; ++i) {
-        const glm::vec3& at_m = vertices_[i].position_m;
-        coordinates_m_[0][i] = at_m.x;
-        coordinates_m_[1][i] = at_m.y;
-        coordinates_m_[2][i] = at_m.z;
-    }
-    outside_.assign(vertices, 0);
-    const float* const x_m = coordinates_m_[0].data();
-    const float* const y_m = coordinates_m_[1].data();
-    const float* const z_m = coordinates_m_[2].data();
-    std::uint8_t* const outside = outside_.data();
-    for (unsigned plane = 0; plane < 4; ++plane) {
-        const glm::vec3 normal = inward[plane];
-        for (std::size_t i = 0; i < vertices; ++i) {
-            const float limit = -margin * (std::abs(x_m[i]) + std::abs(y_m[i]) + std::abs(z_m[i]));
-            const bool is_outside = normal.x * x_m[i] + normal.y * y_m[i] + normal.z * z_m[i] < limit;
-            outside[i] = static_cast<std::uint8_t>(outside[i] | unsigned{is_outside} << plane);
+    outside_.resize((vertices + 3) / 4 * 4);
+    for (std::size_t i = 0; i < vertices; i += 4) {
+        std::array<glm::vec3, 4> at_m;
+        for (std::size_t k = 0; k < 4; ++k) { at_m[k] = vertices_[std::min(i + k, vertices - 1)].position_m; }
+        const Float4 x_m = {at_m[0].x, at_m[1].x, at_m[2].x, at_m[3].x};
+        const Float4 y_m = {at_m[0].y, at_m[1].y, at_m[2].y, at_m[3].y};
+        const Float4 z_m = {at_m[0].z, at_m[1].z, at_m[2].z, at_m[3].z};
+        const Float4 limit = splat4(-margin) * (max4(x_m, -x_m) + max4(y_m, -y_m) + max4(z_m, -z_m));
+        Mask4 outside{};
+        for (int plane = 0; plane < 4; ++plane) {
+            const glm::vec3& normal = inward[static_cast<std::size_t>(plane)];
+            const Float4 inside_m = splat4(normal.x) * x_m + splat4(normal.y) * y_m + splat4(normal.z) * z_m;
+            outside |= (inside_m < limit) & (1 << plane);
         }
+        std::memcpy(&outside_[i], &outside, sizeof(outside));
     }
     is_shown_.assign(vertices, 0);
     shown_indices_.resize(indices);
     std::size_t count = 0;
     for (std::size_t i = 0; i < indices; i += 3) {
         const std::uint32_t* const corners = &indices_[i];
-        if ((outside[corners[0]] & outside[corners[1]] & outside[corners[2]]) != 0) { continue; }
+        if ((outside_[corners[0]] & outside_[corners[1]] & outside_[corners[2]]) != 0) { continue; }
         for (std::size_t k = 0; k < 3; ++k) {
             shown_indices_[count + k] = corners[k];
             is_shown_[corners[k]] = 1;
@@ -269,7 +266,22 @@ scene::TriangleDraw Sky::around(
         const std::uint32_t colour = models::packed_colour(through_haze(haze, land_m_[i], corner.colour)) & 0x00ffffffU;
         vertices_[sky_vertices_ + i].colour = colour | cover_code << 24U;
     }
-    return {std::span(vertices_).first(has_land ? vertices_.size() : sky_vertices_), shown_indices_};
+    number_shown_vertices();
+    return {shown_vertices_, shown_indices_};
+}
+
+/// Fills in shown_vertices_ in the order of vertices_, and makes shown_indices_ refer to them.
+void Sky::number_shown_vertices() {
+    shown_vertices_.clear();
+    first_land_vertex_ = 0;
+    number_.resize(is_shown_.size());
+    for (std::size_t i = 0; i < is_shown_.size(); ++i) {
+        number_[i] = static_cast<std::uint32_t>(shown_vertices_.size());
+        if (is_shown_[i] == 0) { continue; }
+        shown_vertices_.push_back(vertices_[i]);
+        first_land_vertex_ += i < sky_vertices_ ? 1 : 0;
+    }
+    for (std::uint32_t& index : shown_indices_) { index = number_[index]; }
 }
 
 namespace {
@@ -306,12 +318,12 @@ void Atmosphere::write(const FrameView& view, scene::FramePlan& plan) {
     plan.sunlight = daylight_.sunlight();
     plan.haze = haze_;
     plan.haze.visibility_m = visibility_m(eye_m.z);
-    plan.truth.first_land_vertex = sky_.first_land_vertex();
     plan.truth.land_has_cover_codes = ground.land_cover_contrast() != nullptr;
     if (settings_.sky) {
         plan.sky = sky_.around({eye_m.z - ground.mean_height_m(), distance_to_edge_m(ground, eye_m),
                                    ground.mean_colour(), view.earth_radius_m},
             plan.haze, eye_m, view.frustum);
+        plan.truth.first_land_vertex = sky_.first_land_vertex();
     }
 }
 

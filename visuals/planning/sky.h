@@ -41,13 +41,13 @@ public:
     using Frustum = std::array<glm::dvec3, 4>;
     static constexpr Frustum all_around{glm::dvec3(0.0), glm::dvec3(0.0), glm::dvec3(0.0), glm::dvec3(0.0)};
 
-    /// The triangles, in painting order, stay valid until the next call; those outside a plane are left out, and
-    /// vertices that none has are undefined. The land around the map is left out from below its mean height.
+    /// The triangles, in painting order, and their vertices stay valid until the next call; those outside a plane are
+    /// left out. The land around the map is left out from below its mean height.
     scene::TriangleDraw around(const SurroundingPlain& plain, const scene::Haze& haze, const glm::dvec3& eye_m = {},
         const Frustum& frustum = all_around);
 
-    /// The first of the vertices that belongs to the land around the map.
-    std::size_t first_land_vertex() const { return sky_vertices_; }
+    /// The first of the vertices of the last around() that belongs to the land around the map.
+    std::size_t first_land_vertex() const { return first_land_vertex_; }
 
 private:
     void add_ring_triangles(std::uint32_t upper, std::uint32_t lower, int corners);
@@ -56,6 +56,7 @@ private:
     void place_plain(const SurroundingPlain& plain);
     void place_land(const SurroundingPlain& plain, const glm::dvec3& eye_m);
     void keep_triangles_in(const Frustum& frustum, std::size_t vertices, std::size_t indices);
+    void number_shown_vertices();
 
     /// The azimuth at which each ring of the dome begins: the sun's.
     double first_azimuth_rad_;
@@ -68,12 +69,14 @@ private:
     /// The directions in which the corners of each ring of the dome lie, level.
     std::vector<glm::dvec3> levels_;
     // Of the last frame.
-    std::vector<glm::dvec3> plain_rays_;              ///< of the rings below the horizon
-    std::vector<glm::dvec3> land_m_;                  ///< the land's vertices
-    std::array<std::vector<float>, 3> coordinates_m_; ///< x, y and z of each vertex
-    std::vector<std::uint8_t> outside_;               ///< for each vertex a bit for each plane
-    std::vector<std::uint8_t> is_shown_;              ///< for each vertex
+    std::vector<glm::dvec3> plain_rays_; ///< of the rings below the horizon
+    std::vector<glm::dvec3> land_m_;     ///< the land's vertices
+    std::vector<std::int32_t> outside_;  ///< for each vertex a bit for each plane
+    std::vector<std::uint8_t> is_shown_; ///< for each vertex
+    std::vector<std::uint32_t> number_;  ///< for each vertex that is shown its place in shown_vertices_
+    std::vector<models::ColourVertex> shown_vertices_;
     std::vector<std::uint32_t> shown_indices_;
+    std::size_t first_land_vertex_ = 0; ///< in shown_vertices_
     /// How many vertices and indices dome and sun have.
     std::size_t sky_vertices_ = 0;
     std::size_t sky_indices_ = 0;
