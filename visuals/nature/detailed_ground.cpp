@@ -323,12 +323,10 @@ constexpr float share_aimed_at = 0.85F;
 constexpr std::uint32_t bits_of_one = 127U << 23U;
 constexpr unsigned bin_shift = 18; ///< 32 bins for each doubling
 
-/// Whether a triangle is so far off that none of its edges looks longer.
-bool is_far(const std::array<glm::vec3, 3>& triangle, float min_edge_rad) {
+/// The square of a triangle's longest edge.
+float squared_longest_edge(const std::array<glm::vec3, 3>& triangle) {
     const auto& [a, b, c] = triangle;
-    const float longest2 = std::max({squared_length(b - a), squared_length(c - b), squared_length(a - c)});
-    const float over_longest = 1.0F + 1.0F / min_edge_rad;
-    return squared_length(a) >= over_longest * over_longest * longest2;
+    return std::max({squared_length(b - a), squared_length(c - b), squared_length(a - c)});
 }
 
 } // namespace
@@ -338,17 +336,24 @@ bool is_far(const std::array<glm::vec3, 3>& triangle, float min_edge_rad) {
 class NearDetailHistogram {
 public:
     /// Returns how long edges must look, no less than `view.min_edge_rad`, for a little less than `view.max_splits`
-    /// halvings. It changes steadily with the view.
-    float min_edge_rad_for_budget(const terrain::GroundMesh& mesh, const NearDetailView& view) {
+    /// halvings. It changes steadily with the view. `reach_m`: of things that stand on the ground.
+    float min_edge_rad_for_budget(const terrain::GroundMesh& mesh, const NearDetailView& view, float reach_m) {
         view_ = view;
         min_angular_size2_ = view.min_edge_rad * view.min_edge_rad;
         split_counts_.fill(0);
         counted_ = 0;
         is_near_.resize(mesh.indices.size() / 3);
+        may_reach_.resize(is_near_.size());
+        const float over_longest = 1.0F + 1.0F / view.min_edge_rad;
         for (std::size_t i = 0; i < is_near_.size(); ++i) {
             const Triangle triangle{mesh.vertices[mesh.indices[3 * i]].position_m,
                 mesh.vertices[mesh.indices[3 * i + 1]].position_m, mesh.vertices[mesh.indices[3 * i + 2]].position_m};
-            is_near_[i] = is_far(triangle, view.min_edge_rad) ? 0 : 1;
+            const float longest2 = squared_longest_edge(triangle);
+            const float distance2 = squared_length(triangle[0]);
+            // Farther off none of its edges looks longer.
+            is_near_[i] = distance2 < over_longest * over_longest * longest2 ? 1 : 0;
+            // The square of a sum is at most twice the sum of the squares.
+            may_reach_[i] = distance2 < 2.1F * (reach_m * reach_m + longest2) ? 1 : 0;
             if (is_near_[i] != 0) {
                 count(triangle, min_angular_size2_ * static_cast<float>(1U << (bins / bins_an_octave)), 0);
             }
@@ -369,6 +374,9 @@ public:
 
     /// Whether a triangle of the last mesh has edges that may look long: most are too far off.
     bool is_near(std::size_t triangle) const { return is_near_[triangle] != 0; }
+
+    /// False only if all of the triangle is farther off than things stand.
+    bool may_reach(std::size_t triangle) const { return may_reach_[triangle] != 0; }
 
 private:
     using Triangle = std::array<glm::vec3, 3>;
@@ -408,6 +416,7 @@ private:
     /// Halvings by the square of how long the edge looks, over min_angular_size2_.
     std::array<std::uint32_t, bins> split_counts_{};
     std::vector<std::uint8_t> is_near_;
+    std::vector<std::uint8_t> may_reach_;
 };
 
 namespace {
@@ -480,17 +489,17 @@ DetailedGround::Triangles DetailedGround::detailed_mesh(const terrain::GroundMes
     NearDetailMesh& mesh_builder = memory.mesh_builder;
     std::vector<std::uint32_t>& first_index_of = memory.first_index_of;
     NearDetailView view = wanted;
-    if (detail.has_subdivision) { view.min_edge_rad = memory.histogram.min_edge_rad_for_budget(mesh, wanted); }
-    memory.frame_number = 1 - memory.frame_number;
-    DetailedFrame& frame = memory.frames[memory.frame_number];
-    std::swap(mesh_builder.vertices(), frame.vertices); // memory of the frame before the last
-    std::swap(mesh_builder.standing(), frame.standing);
-    mesh_builder.begin(view, mesh.vertices, detail.scenery ? &decorations : nullptr, colour);
     float reach_m = 0.0F;
     for (const auto& decoration : decorations) {
         decoration->begin_standing(view);
         if (detail.scenery) { reach_m = std::max(reach_m, static_cast<float>(decoration->reach_m())); }
     }
+    if (detail.has_subdivision) { view.min_edge_rad = memory.histogram.min_edge_rad_for_budget(mesh, wanted, reach_m); }
+    memory.frame_number = 1 - memory.frame_number;
+    DetailedFrame& frame = memory.frames[memory.frame_number];
+    std::swap(mesh_builder.vertices(), frame.vertices); // memory of the frame before the last
+    std::swap(mesh_builder.standing(), frame.standing);
+    mesh_builder.begin(view, mesh.vertices, detail.scenery ? &decorations : nullptr, colour);
     const bool far_first = view.order == terrain::PaintOrder::BackToFront;
     const NearToFar walk{mesh.indices, far_first};
     const std::size_t count = walk.count;
@@ -503,7 +512,8 @@ DetailedGround::Triangles DetailedGround::detailed_mesh(const terrain::GroundMes
             mesh.vertices[corners[2]].position_m};
     };
     const auto has_scenery = [&](std::size_t triangle) {
-        return reach_m > 0.0F && is_nearer(corners_m(triangle), reach_m);
+        return reach_m > 0.0F && (!detail.has_subdivision || memory.histogram.may_reach(triangle)) &&
+               is_nearer(corners_m(triangle), reach_m);
     };
     const auto is_near = [&](std::size_t triangle) {
         return detail.has_subdivision && memory.histogram.is_near(triangle);

@@ -323,7 +323,7 @@ private:
                       scrambled(static_cast<std::uint32_t>(row)));
         CachedItem& known = item_cache_[random_bits & (cache_size - 1)];
         if (known.place != place) {
-            const SceneryDensity scenery_density = density_at_(column, row);
+            const SceneryDensity& scenery_density = density_of(column, row);
             const float pick = share_of(random_bits, 24) + share_of(random_bits, 16) * (1.0F / 256.0F);
             float sum = scenery_density.houses;
             SceneryKind kind = pick < sum ? SceneryKind::House : SceneryKind::None;
@@ -338,6 +338,15 @@ private:
                                 scrambled(random_bits)}};
         }
         return known.item;
+    }
+
+    /// The quarters of a cell follow one another.
+    const SceneryDensity& density_of(int column, int row) {
+        if (last_cell_ != glm::ivec2(column, row)) {
+            last_density_ = density_at_(column, row);
+            last_cell_ = {column, row};
+        }
+        return last_density_;
     }
 
     /// What stands within a triangle, with the ground below it as drawn.
@@ -433,6 +442,8 @@ private:
     float max_radius_m_; ///< of what fits into its triangle; too small: nothing stands anywhere
     double reach_m_;
     SceneryDensityAt density_at_;
+    glm::ivec2 last_cell_{-1};
+    SceneryDensity last_density_;           ///< in that cell
     std::array<glm::vec3, 9> side_light_{}; ///< on the eight sides, then on what faces up; the shade
     glm::vec3 shade_{0.4F};
     NearDetailView view_;
