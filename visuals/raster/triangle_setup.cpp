@@ -131,14 +131,14 @@ TriangleSetup::TriangleSetup(const Projection& projection, const scene::FramePla
 
 void TriangleSetup::add(const VertexOutputs& corners, const std::array<std::uint32_t, 3>& triangle,
     const FlatColour* flat, TriangleList& list) {
-    if (style_.culls_back_faces && flat != nullptr && flat->is_back_facing) { return; }
+    if (style_.culls_back_faces && flat != nullptr && flat->is_back_facing()) { return; }
     const auto& vertices = corners.vertices;
     const auto [a, b, c] = triangle;
     constexpr std::uint32_t sides = left_of_view | right_of_view | above_view | below_view;
     if ((vertices[a].outcode & vertices[b].outcode & vertices[c].outcode & sides) != 0) { return; }
     const bool is_cut = ((vertices[a].outcode | vertices[b].outcode | vertices[c].outcode) & beyond_range) != 0;
     if (!is_cut && style_.culls_back_faces && doubled_area(vertices[a], vertices[b], vertices[c]) >= 0) { return; }
-    flat_ = flat != nullptr && !flat->is_smooth ? flat : nullptr;
+    flat_ = flat != nullptr && !flat->is_smooth() ? flat : nullptr;
     extra_ = Triangle::none;
     fill_ = fill_of({&vertices[a], &vertices[b], &vertices[c]}, is_cut);
     if (flat != nullptr && flat_ == nullptr && !corners.lit.empty()) {
