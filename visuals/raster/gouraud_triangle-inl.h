@@ -1,6 +1,6 @@
 // Gouraud-shaded triangles, nearly all of a picture: masks and colours of whole strips are added straight to the sums
 // of the tile. In this order: inverse depth and land cover for the detail texture; two rows of a narrow triangle in
-// one register, with the same result as row by row; strips of one row. Included once for each instruction set.
+// one register, with the same result as row by row; strips of one row; specks. Included once for each instruction set.
 #if defined(OCTANT_RASTER_GOURAUD_TRIANGLE_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef OCTANT_RASTER_GOURAUD_TRIANGLE_INL
 #undef OCTANT_RASTER_GOURAUD_TRIANGLE_INL
@@ -16,6 +16,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <type_traits>
 #include <utility>
 
 HWY_BEFORE_NAMESPACE();
@@ -373,6 +374,88 @@ HWY_INLINE void paint_strip(const Triangle& triangle, const TileJob& job, const 
     });
 }
 
+// -- Specks: triangles that are no wider than two pixels, pixel by pixel, with the same result as by strips.
+
+constexpr int speck_px = 2;
+
+/// The colours of a triangle's pixels, as StripGradient.
+class SpeckColours {
+public:
+    HWY_INLINE SpeckColours(const ColourGradients& gradients, const glm::ivec2& first_px) {
+        const auto across = hn::Mul(hn::Load(Four(), gradients.per_x.data()), hn::Set(Four(), first_px.x));
+        per_row_ = hn::Load(Four(), gradients.per_y.data());
+        const auto base = hn::Add(hn::Load(Four(), gradients.base.data()), hn::Set(Four(), 256));
+        at_ = hn::Add(hn::Add(base, across), hn::Mul(per_row_, hn::Set(Four(), first_px.y)));
+        const auto widened = [](const std::array<std::int16_t, 4>& of)
+                                 HWY_ATTR { return hn::PromoteTo(Four(), hn::LoadU(Short(), of.data())); };
+        per_column_ = widened(gradients.per_column);
+        min_ = widened(gradients.min);
+        max_ = widened(gradients.max);
+    }
+
+    /// Adds the colour of a pixel of the row at hand for so many samples.
+    template <int column>
+    HWY_INLINE void add(int samples, std::size_t pixel, TileBuffer& buffer) const {
+        const auto steps = hn::Mul(per_column_, hn::Set(Four(), column));
+        const auto wrapped = hn::ShiftRight<16>(hn::ShiftLeft<16>(hn::Add(hn::ShiftRight<9>(at_), steps)));
+        const auto level = hn::Min(hn::Max(wrapped, min_), max_);
+        const auto colour = hn::ShiftRight<3>(hn::Add(level, hn::Set(Four(), 128 * 128 + 4)));
+        alignas(16) std::array<std::int32_t, 4> sums;
+        hn::Store(hn::Mul(colour, hn::Set(Four(), samples)), Four(), sums.data());
+        for (std::size_t k = 0; k < 3; ++k) {
+            buffer.sums[k][pixel] = static_cast<std::uint16_t>(buffer.sums[k][pixel] + sums[k]);
+        }
+    }
+
+    HWY_INLINE void next_row() { at_ = hn::Add(at_, per_row_); }
+
+private:
+    using Four = hn::FixedTag<std::int32_t, 4>;
+    using Short = hn::FixedTag<std::int16_t, 4>;
+
+    hn::Vec<Four> at_; ///< in the row's first pixel, 2^-16 level
+    hn::Vec<Four> per_row_;
+    hn::Vec<Four> per_column_; ///< 1/128 level
+    hn::Vec<Four> min_;
+    hn::Vec<Four> max_;
+};
+
+/// Paints a triangle whose box is no wider than a speck.
+template <PaintAs kind>
+HWY_INLINE void paint_speck(
+    const Triangle& triangle, const TileJob& job, const SampleLanes& lanes, const TileBox& box, TileBuffer& buffer) {
+    const glm::ivec2 first_px = job.first_px + glm::ivec2(box.left, box.first_row);
+    const std::uint64_t full_row = job.full_row();
+    StripCoverage coverage(triangle, first_px, box.columns_of_strip(box.left), lanes);
+    SpeckColours colours(triangle.gradients, first_px);
+    for (int row = box.first_row; row <= box.last_row; ++row) {
+        std::uint64_t& full = buffer.full[static_cast<std::size_t>(row)];
+        const LaneMasks masks = coverage.lanes();
+        const auto paint = [&](auto column) HWY_ATTR {
+            constexpr int right = decltype(column)::value;
+            const auto pixel = static_cast<std::size_t>(row * tile_width + box.left + right);
+            const std::uint32_t before = buffer.covered[pixel];
+            const std::uint32_t fresh = StripCoverage::samples_of<right>(masks) & ~before;
+            buffer.covered[pixel] = static_cast<std::uint16_t>(before | fresh);
+            full |= std::uint64_t{(before | fresh) == 0xffffU} << (box.left + right);
+            colours.template add<right>(std::popcount(fresh), pixel, buffer);
+            if constexpr (kind == PaintAs::OtherThanGround) {
+                std::uint16_t& other = buffer.sums[3][pixel];
+                other = static_cast<std::uint16_t>(other + std::popcount(fresh));
+            } else if constexpr (kind == PaintAs::Ground && right == 0) { // which is even
+                if (row % 2 == 0 && fresh != 0) {
+                    buffer.ground_of_row(row)[box.left / 2] = ground_at(triangle, first_px.x, job.first_px.y + row);
+                }
+            }
+        };
+        paint(std::integral_constant<int, 0>());
+        if (box.right > box.left) { paint(std::integral_constant<int, 1>()); }
+        buffer.full_rows |= std::uint32_t{(full & full_row) == full_row} << row;
+        coverage.next_row();
+        colours.next_row();
+    }
+}
+
 /// An edge in a strip where a pixel's only sample is its middle.
 struct MiddleEdge {
     std::uint64_t x; ///< as StripEdge
@@ -448,9 +531,13 @@ template <PaintAs kind>
 HWY_NOINLINE void paint_gouraud(
     const Triangle& triangle, const TileJob& job, const SampleLanes& lanes, TileBuffer& buffer) {
     TileBox box(triangle, job);
-    if ((box.rows() & ~buffer.full_rows) == 0) { return; }
+    if (!box.keep_free_rows(buffer)) { return; }
     if constexpr (kind == PaintAs::Ground) {
         box.left &= ~1; // where the ground is recorded
+    }
+    if (!lanes.is_single_sample && box.right - box.left < speck_px) {
+        paint_speck<kind>(triangle, job, lanes, box, buffer);
+        return;
     }
     if constexpr (has_pairs_of_rows) {
         if (!lanes.is_single_sample && box.right - box.left < window_px) {

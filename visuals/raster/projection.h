@@ -44,11 +44,18 @@ struct ClipPosition {
 
 /// Colour of a flat polygon, from its first vertex.
 struct FlatColour {
+    static constexpr std::uint32_t smooth = 1;
+    static constexpr std::uint32_t back_facing = 2;
+
     std::array<float, 3> rgb{}; ///< 0..255
-    bool is_smooth = false;     ///< the corners' own colours count
+    std::uint32_t flags = 0;
+
+    /// The corners' own colours count.
+    bool is_smooth() const { return (flags & smooth) != 0; }
+
     /// The eye sees its back, by more than rounding. Of its triangles those that are as narrow as the rounding of
     /// corners may seem to face the eye nevertheless.
-    bool is_back_facing = false;
+    bool is_back_facing() const { return (flags & back_facing) != 0; }
 };
 
 /// Vertex of a polygon that is lit at each pixel.
@@ -73,13 +80,7 @@ struct Projection {
 /// For pictures of at most 8,192 pixels each way.
 Projection projection_of(const scene::FramePlan& plan, const glm::ivec2& size_px);
 
-ClipPosition clip_position(const Projection& projection, const glm::vec3& position_m);
-
 /// Fills in all members of `vertex` but the values.
 void place(const Projection& projection, const ClipPosition& clip, ScreenVertex& vertex);
-
-/// exp(-x) for x >= 0, by sums and products alone, so that all processors agree. Relative error below 4e-6: that of the
-/// product x * log2(e) at x = 80, where nothing is left to see.
-float exp_of_minus(float x);
 
 } // namespace octant::visuals::raster

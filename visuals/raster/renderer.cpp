@@ -1,7 +1,7 @@
 // Draws a picture. The files in the order in which a FramePlan becomes pixels; draw_into() below begins with 4 and ends
 // with 5:
 //   1 frame_draws      the plan's steps become slices of triangles, and blocks of vertices that are projected alike
-//   2 vertex_stage     vertices are projected to the screen, lit and hazed; ground_vertices does so for ground
+//   2 vertex_stage     vertices are projected to the screen, lit and hazed
 //   3 triangle_setup   triangles are clipped and get their edges and gradients, which triangle_planes computes
 //   4 triangle_binner  runs step 1, then 2 and 3 on all threads, and sorts the triangles into tiles
 //   5 tile_painter     paints one tile, the plan's order in reverse: from the nearest triangle to the farthest

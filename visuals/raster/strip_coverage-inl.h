@@ -261,6 +261,20 @@ public:
         return masks;
     }
 
+    /// The samples of a pixel, from lanes().
+    template <int column>
+    static HWY_INLINE std::uint32_t samples_of(const LaneMasks& masks) {
+        std::uint32_t bits = 0;
+        for (std::size_t i = 0; i < lane_parts; ++i) {
+            // The pixel's bit becomes the sign.
+            const auto lanes = hn::BitCast(Lanes(), hn::ShiftLeft<strip_px - 1 - column>(masks[i]));
+            std::array<std::uint8_t, 8> some{};
+            hn::StoreMaskBits(Lanes(), hn::MaskFromVec(hn::BroadcastSignBit(lanes)), some.data());
+            bits |= static_cast<std::uint32_t>(some[0] | some[1] << 8) << (i * hn::MaxLanes(Lanes()));
+        }
+        return bits;
+    }
+
     HWY_INLINE void next_row() {
         whole_.x += whole_.slope;
         upper_.x += upper_.slope;
@@ -312,6 +326,15 @@ struct TileBox {
 
     std::uint32_t rows() const {
         return static_cast<std::uint32_t>((std::uint64_t{2} << last_row) - (std::uint64_t{1} << first_row));
+    }
+
+    /// Leaves out the first and the last rows that have no free pixel. Returns false if none has.
+    HWY_INLINE bool keep_free_rows(const TileBuffer& buffer) {
+        const std::uint64_t columns = (~std::uint64_t{0} >> (tile_width - 1 - right + left)) << left;
+        const auto is_full = [&](int row) { return (columns & ~buffer.full[static_cast<std::size_t>(row)]) == 0; };
+        while (first_row <= last_row && is_full(first_row)) { ++first_row; }
+        while (first_row <= last_row && is_full(last_row)) { --last_row; }
+        return first_row <= last_row;
     }
 };
 

@@ -205,13 +205,16 @@ void TriangleBinner::set_up_overlay(const FrameInput& input) {
 void TriangleBinner::bin(Batch& batch) const {
     const auto tiles = static_cast<std::size_t>(tiles_.x) * static_cast<std::size_t>(tiles_.y);
     batch.tile_first.assign(tiles + 1, 0);
+    const auto across = static_cast<std::uint32_t>(tiles_.x);
     const auto for_each_tile = [&](const Triangle& triangle, const auto& visit) {
-        const int last_x = triangle.right / tile_width;
-        const int last_y = triangle.last_row / tile_height;
-        for (int y = triangle.first_row / tile_height; y <= last_y; ++y) {
-            for (int x = triangle.left / tile_width; x <= last_x; ++x) {
-                visit(static_cast<std::size_t>(y * tiles_.x + x));
-            }
+        const auto number = [](std::int32_t px, int size_px) {
+            return static_cast<std::uint32_t>(px) / static_cast<std::uint32_t>(size_px);
+        };
+        const std::uint32_t first_x = number(triangle.left, tile_width);
+        const std::uint32_t last_x = number(triangle.right, tile_width);
+        const std::uint32_t last_y = number(triangle.last_row, tile_height);
+        for (std::uint32_t y = number(triangle.first_row, tile_height); y <= last_y; ++y) {
+            for (std::uint32_t x = first_x; x <= last_x; ++x) { visit(y * across + x); }
         }
     };
     for (const Triangle& triangle : batch.list.triangles) {

@@ -208,6 +208,45 @@ void SetEdgesAndGradients(const TopDownVertices& vertices, double max_per_px, Tr
     if (triangle.has_detail_texture) { set_inverse_depth(vertices, base, triangle); }
 }
 
+// -- Triangles that no sample lies in.
+
+/// For each sample the only row, and the columns, where the triangle may cover it.
+bool IsBetweenSamples(const TopDownVertices& vertices, const SamplePattern& samples) {
+    using Lanes = hn::CappedTag<float, SamplePattern::lanes>;
+    const Lanes lanes;
+    const hn::RebindToSigned<Lanes> whole;
+    constexpr std::int32_t per_px = ScreenVertex::per_px;
+    constexpr float rounding = 0.25F; ///< more than the crossings of a painted triangle are rounded by
+    const auto& [top, middle, bottom, area] = vertices;
+    const auto set = [&](std::int32_t value) HWY_ATTR { return hn::Set(lanes, static_cast<float>(value)); };
+    const auto slope = [&](const ScreenVertex& from, const ScreenVertex& to)
+                           HWY_ATTR { return hn::Div(set(to.x - from.x), set(to.y - from.y)); };
+    const auto of_whole = slope(top, bottom);
+    const auto of_upper = slope(top, middle);
+    const auto of_lower = slope(middle, bottom);
+    const auto fraction = [&](std::int32_t value) HWY_ATTR { return value & (per_px - 1); };
+    for (std::size_t i = 0; i < samples.x.size(); i += hn::Lanes(lanes)) {
+        constexpr int scale = 3; // from 1/32 to 1/256 pixel
+        const auto x = hn::ConvertTo(lanes, hn::ShiftLeft<scale>(hn::LoadU(whole, samples.x.data() + i)));
+        const auto y = hn::ShiftLeft<scale>(hn::LoadU(whole, samples.y.data() + i));
+        const auto below_top = hn::And(hn::Sub(y, hn::Set(whole, top.y)), hn::Set(whole, per_px - 1));
+        const auto down = hn::ConvertTo(lanes, below_top);
+        const auto below_middle = hn::Sub(down, set(middle.y - top.y));
+        const auto through = hn::Mul(down, of_whole);
+        const auto bent = hn::IfThenElse(hn::Lt(below_middle, hn::Zero(lanes)), hn::Mul(down, of_upper),
+            hn::Add(set(middle.x - top.x), hn::Mul(below_middle, of_lower)));
+        const auto column = [&](hn::Vec<Lanes> from_top) HWY_ATTR {
+            const auto from_sample = hn::Add(hn::Sub(from_top, x), set(fraction(top.x)));
+            return hn::Ceil(hn::Mul(from_sample, hn::Set(lanes, 1.0F / per_px)));
+        };
+        const auto margin = hn::Set(lanes, rounding);
+        const auto first = column(hn::Sub(hn::Min(through, bent), margin));
+        const auto end = column(hn::Add(hn::Max(through, bent), margin));
+        if (!hn::AllFalse(lanes, hn::And(hn::Lt(down, set(bottom.y - top.y)), hn::Lt(first, end)))) { return false; }
+    }
+    return true;
+}
+
 // -- Planes of textured triangles: whether they hold for a whole triangle, and the values at its vertices then.
 
 using Four = hn::FixedTag<float, 4>; ///< the values of a corner
@@ -344,8 +383,22 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace octant::visuals::raster {
 
+HWY_EXPORT(IsBetweenSamples);
 HWY_EXPORT(SetEdges);
 HWY_EXPORT(SetEdgesAndGradients);
+
+bool is_between_samples(const TopDownVertices& vertices, const SamplePattern& samples) {
+    constexpr std::int32_t per_px = ScreenVertex::per_px;
+    constexpr std::int32_t max_width = 256 * per_px; // for which single precision is enough
+    const auto& [top, middle, bottom, area] = vertices;
+    const std::int32_t height = bottom.y - top.y;
+    const std::int32_t left = std::min(std::min(top.x, middle.x), bottom.x);
+    const std::int32_t width = std::max(std::max(top.x, middle.x), bottom.x) - left;
+    if (height >= per_px || width >= max_width) { return false; }
+    const auto to_next_middle = [](std::int32_t from) { return -from & (per_px - 1); };
+    if (to_next_middle(top.y) < height && to_next_middle(left) <= width) { return false; }
+    return HWY_DYNAMIC_DISPATCH(IsBetweenSamples)(vertices, samples);
+}
 
 void set_edges(const TopDownVertices& vertices, Triangle& triangle) {
     HWY_DYNAMIC_DISPATCH(SetEdges)(vertices, triangle);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "visuals/raster/projection.h"
+#include "visuals/raster/sample_pattern.h"
 #include "visuals/raster/triangle.h"
 #include "visuals/scene/picture.h"
 
@@ -24,6 +25,10 @@ struct TopDownVertices {
     /// Twice the area, 1/256 pixel squared; not 0. Its sign says on which side the middle lies.
     std::int64_t doubled_area;
 };
+
+/// Whether a triangle that is flatter than a pixel covers neither a sample nor the middle of any pixel. May be false
+/// where it does not; of other triangles always is.
+bool is_between_samples(const TopDownVertices& vertices, const SamplePattern& samples);
 
 /// Fills in the edges of a triangle, and its inverse depth if it has detail texture. Its box is known.
 void set_edges(const TopDownVertices& vertices, Triangle& triangle);

@@ -126,19 +126,19 @@ std::int64_t doubled_area(const ScreenVertex& a, const ScreenVertex& b, const Sc
 
 TriangleSetup::TriangleSetup(const Projection& projection, const scene::FramePlan& plan, const SamplePattern& samples,
     std::size_t texture_levels)
-    : projection_(projection), plan_(plan), reach_(samples.reach * per_px / SamplePattern::unit),
+    : projection_(projection), plan_(plan), samples_(samples), reach_(samples.reach * per_px / SamplePattern::unit),
       texture_levels_(texture_levels) {}
 
 void TriangleSetup::add(const VertexOutputs& corners, const std::array<std::uint32_t, 3>& triangle,
     const FlatColour* flat, TriangleList& list) {
-    if (style_.culls_back_faces && flat != nullptr && flat->is_back_facing) { return; }
+    if (style_.culls_back_faces && flat != nullptr && flat->is_back_facing()) { return; }
     const auto& vertices = corners.vertices;
     const auto [a, b, c] = triangle;
     constexpr std::uint32_t sides = left_of_view | right_of_view | above_view | below_view;
     if ((vertices[a].outcode & vertices[b].outcode & vertices[c].outcode & sides) != 0) { return; }
     const bool is_cut = ((vertices[a].outcode | vertices[b].outcode | vertices[c].outcode) & beyond_range) != 0;
     if (!is_cut && style_.culls_back_faces && doubled_area(vertices[a], vertices[b], vertices[c]) >= 0) { return; }
-    flat_ = flat != nullptr && !flat->is_smooth ? flat : nullptr;
+    flat_ = flat != nullptr && !flat->is_smooth() ? flat : nullptr;
     extra_ = Triangle::none;
     fill_ = fill_of({&vertices[a], &vertices[b], &vertices[c]}, is_cut);
     if (flat != nullptr && flat_ == nullptr && !corners.lit.empty()) {
@@ -198,8 +198,8 @@ Fill TriangleSetup::fill_of(const std::array<const ScreenVertex*, 3>& corners, b
     if (correction * 255.0F <= min_correction) { return Fill::Gouraud; }
     float range = 0.0F;
     for (std::size_t i = 0; i < 3; ++i) {
-        const auto [min, max] = std::minmax({a->value[i], b->value[i], c->value[i]});
-        range = std::max(range, max - min);
+        const float min = std::min(std::min(a->value[i], b->value[i]), c->value[i]);
+        range = std::max(range, std::max(std::max(a->value[i], b->value[i]), c->value[i]) - min);
     }
     return correction * range > min_correction ? Fill::Perspective : Fill::Gouraud;
 }
@@ -303,13 +303,15 @@ void TriangleSetup::add_placed(
     const ScreenVertex& top = *order[0];
     const ScreenVertex& middle = *order[1];
     const ScreenVertex& bottom = *order[2];
-    const auto [min_x, max_x] = std::minmax({a.x, b.x, c.x});
+    const std::int32_t min_x = std::min(std::min(a.x, b.x), c.x);
+    const std::int32_t max_x = std::max(std::max(a.x, b.x), c.x);
     const std::int32_t left = std::max(first_row_of(min_x - reach_), 0);
     const std::int32_t right = std::min((max_x + reach_) >> 8, projection_.size_px.x - 1);
     const std::int32_t first = std::max(first_row_of(top.y - reach_), 0);
     const std::int32_t last = std::min((bottom.y - 1 + reach_) >> 8, projection_.size_px.y - 1);
     const std::int64_t area = doubled_area(top, middle, bottom);
-    if (left > right || first > last || area == 0) { return; }
+    const TopDownVertices corners{top, middle, bottom, area};
+    if (left > right || first > last || area == 0 || is_between_samples(corners, samples_)) { return; }
     Triangle& triangle = list.triangles.emplace_back();
     triangle.top = top.y;
     triangle.middle = middle.y;
@@ -328,7 +330,6 @@ void TriangleSetup::add_placed(
     triangle.is_sky = style_.is_sky;
     triangle.is_under_side = style_.is_land && doubled_area(a, b, c) > 0;
     triangle.source = source_;
-    const TopDownVertices corners{top, middle, bottom, area};
     triangle.has_detail_texture =
         style_.has_detail_texture && (a.value[3] > 0.0F || b.value[3] > 0.0F || c.value[3] > 0.0F);
     if (flat_ != nullptr) {

@@ -76,6 +76,7 @@ private:
 
     const Projection& projection_;
     const scene::FramePlan& plan_;
+    SamplePattern samples_;
     std::int32_t reach_ = 0; ///< of the samples from a pixel's middle, 1/256 pixel
     std::size_t texture_levels_ = 0;
     DrawStyle style_;

@@ -1,5 +1,5 @@
 #include "tests/visuals/raster/flat_plan.h"
-#include "visuals/raster/projection.h"
+#include "visuals/raster/vertex_stage.h"
 
 #include <catch2/catch.hpp>
 
