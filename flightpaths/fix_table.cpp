@@ -389,27 +389,64 @@ void FixTable::find_speed_unit(std::vector<Flight>& flights) {
     }
 }
 
-void FixTable::convert_headings(std::vector<Flight>& flights) {
-    if (headings == HeadingKind::True) { return; }
-    // The way over the ground, seen from the nose: the declination, and drift that different headings cancel.
+namespace {
+
+/// How the way over the ground differs from the headings of a fast aircraft: the declination, and drift.
+struct HeadingComparison {
+    std::vector<double> off_deg;
+    /// Of the ways: 0 where they lead to all sides, 1 where all lead the same way.
+    double one_sidedness = 0.0;
+
+    double quantile_deg(double share) {
+        const auto at = off_deg.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(off_deg.size() - 1));
+        std::ranges::nth_element(off_deg, at);
+        return *at;
+    }
+};
+
+HeadingComparison compare_headings(const std::vector<FixSeries>& flights) {
     constexpr double fast_mps = 15.0;
     constexpr double largest_drift_deg = 45.0;
-    std::vector<double> angles_deg;
+    HeadingComparison comparison;
     glm::dvec2 directions(0.0);
-    for (const Flight& flight : flights) {
+    for (const FixSeries& flight : flights) {
         for (std::size_t i = 1; i < flight.fixes.size(); ++i) {
             const Fix& a = flight.fixes[i - 1];
             const Fix& b = flight.fixes[i];
             if (std::isnan(b.heading_deg) || !(speed_between_mps(a, b) >= fast_mps)) { continue; }
             const double east =
                 std::remainder(b.longitude_deg - a.longitude_deg, 360.0) * std::cos(rad_from_deg(b.latitude_deg));
-            const double way_deg = deg_from_rad(std::atan2(east, b.latitude_deg - a.latitude_deg));
-            const double off_deg = std::remainder(way_deg - b.heading_deg, 360.0);
-            if (std::abs(off_deg) <= largest_drift_deg) { angles_deg.push_back(off_deg); }
+            const double way_rad = std::atan2(east, b.latitude_deg - a.latitude_deg);
+            const double off_deg = std::remainder(deg_from_rad(way_rad) - b.heading_deg, 360.0);
+            if (std::abs(off_deg) > largest_drift_deg) { continue; }
+            comparison.off_deg.push_back(off_deg);
+            directions += glm::dvec2(std::sin(way_rad), std::cos(way_rad));
         }
     }
+    if (!comparison.off_deg.empty()) {
+        comparison.one_sidedness = glm::length(directions) / static_cast<double>(comparison.off_deg.size());
+    }
+    return comparison;
+}
+
+/// Whether headings of an unknown kind are magnetic: they differ from the way by the same angle to all sides. Wind from
+/// one side looks alike where all ways lead the same way.
+bool are_magnetic(HeadingComparison& comparison) {
+    constexpr double surely_magnetic_deg = 3.0;
+    constexpr double widest_spread_deg = 12.0;
+    constexpr double most_one_sided = 0.7;
+    return std::abs(comparison.quantile_deg(0.5)) >= surely_magnetic_deg &&
+           comparison.quantile_deg(0.75) - comparison.quantile_deg(0.25) <= widest_spread_deg &&
+           comparison.one_sidedness <= most_one_sided;
+}
+
+} // namespace
+
+void FixTable::convert_headings(std::vector<Flight>& flights) {
+    if (headings == HeadingKind::True) { return; }
+    HeadingComparison comparison = compare_headings(flights);
     constexpr std::size_t fewest = 10;
-    if (angles_deg.size() < fewest) {
+    if (comparison.off_deg.size() < fewest) {
         if (headings == HeadingKind::Magnetic) {
             notes_.emplace_back("headings are magnetic and too few to find the declination: taken from the motion");
             for (Flight& flight : flights) {
@@ -418,16 +455,14 @@ void FixTable::convert_headings(std::vector<Flight>& flights) {
         }
         return;
     }
-    const auto middle = angles_deg.begin() + static_cast<std::ptrdiff_t>(angles_deg.size() / 2);
-    std::ranges::nth_element(angles_deg, middle);
-    constexpr double surely_magnetic_deg = 3.0;
-    if (headings == HeadingKind::Unknown && std::abs(*middle) < surely_magnetic_deg) { return; }
+    if (headings == HeadingKind::Unknown && !are_magnetic(comparison)) { return; }
+    const double declination_deg = comparison.quantile_deg(0.5);
     for (Flight& flight : flights) {
-        for (Fix& fix : flight.fixes) { fix.heading_deg += *middle; }
+        for (Fix& fix : flight.fixes) { fix.heading_deg += declination_deg; }
     }
     notes_.push_back(fmt::format("headings are magnetic: turned by {:.1f} degrees {}, by which the way over the ground "
                                  "differs from them",
-        std::abs(*middle), *middle < 0.0 ? "west" : "east"));
+        std::abs(declination_deg), declination_deg < 0.0 ? "west" : "east"));
 }
 
 std::optional<TrackedAircraft> FixTable::tracked(Flight flight, const EarthFrame& frame, double begin_s) {
@@ -439,7 +474,7 @@ std::optional<TrackedAircraft> FixTable::tracked(Flight flight, const EarthFrame
         const double turn_rad = local.north_bearing_rad;
         TrackSample sample;
         sample.time_s = fix.time_s - begin_s;
-        sample.position_m = {local.east_north_m, heights == HeightKind::Absent ? 0.0 : fix.altitude_m};
+        sample.position_m = {local.east_north_m, heights == HeightKind::Absent ? assumed_height_m : fix.altitude_m};
         if (!(glm::length(sample.position_m) <= max_distance_m)) { return std::nullopt; }
         sample.velocity_mps = {rotated_clockwise({fix.east_mps, fix.north_mps}, turn_rad), fix.up_mps};
         sample.ground_speed_mps = fix.ground_speed_mps;

@@ -582,7 +582,7 @@ private:
         fix.horizontal_error_m = taken(LogQuantity::HorizontalError);
         fix.vertical_error_m = taken(LogQuantity::VerticalError);
         const std::string_view contact = field(LogQuantity::OnGround);
-        if (contact == "True" || contact == "true" || contact == "1" || contact == "TRUE") {
+        if (contact == "True" || contact == "true" || contact == "1" || contact == "TRUE" || contact == "G") {
             fix.contact = GroundContact::OnGround;
         } else if (!contact.empty() && fix.contact == GroundContact::Unknown) {
             fix.contact = GroundContact::InAir;
@@ -697,9 +697,26 @@ bool has_decimal_commas(std::string_view text, char separator) {
     return false;
 }
 
+/// FlySight 2's table as one with its names first: rows of a kind of sensor begin with its name ($GNSS), their names
+/// follow $COL and their units $UNIT. Other lines become empty, so that lines keep their numbers.
+std::string from_flysight(std::string_view text) {
+    std::string out;
+    for (std::string_view line : split_lines(text)) {
+        for (const std::string_view head : {"$COL,GNSS,", "$UNIT,GNSS,", "$GNSS,"}) {
+            if (line.starts_with(head)) { out += line.substr(head.size()); }
+        }
+        out += '\n';
+    }
+    return out;
+}
+
 } // namespace
 
 TrackRecording table_recording(const TrackSource& source) {
+    if (source.bytes.starts_with("$FLYS,")) {
+        const std::string table = from_flysight(source.bytes);
+        return table_recording({table, source.file, source.follow});
+    }
     const char separator = table_separator(source.bytes);
     std::string converted;
     std::string_view text = source.bytes;

@@ -28,6 +28,8 @@ bool is_xplane_data(std::string_view text);
 bool is_basestation(std::string_view text);
 bool is_dataflash_binary(std::string_view bytes);
 bool is_dataflash_text(std::string_view text);
+bool is_ulog(std::string_view bytes);
+bool is_readsb_trace(std::string_view text);
 bool is_mavlink_log(std::string_view bytes);
 
 /// Tacview's ACMI 2.x text ("Technical Reference - ACMI flight recordings 2.2"): objects whose tags have Air among
@@ -57,6 +59,12 @@ TrackRecording basestation_recording(const TrackSource& source);
 /// ArduPilot's DataFlash logs.
 TrackRecording dataflash_binary_recording(const TrackSource& source);
 TrackRecording dataflash_text_recording(const TrackSource& source);
+
+/// PX4's log.
+TrackRecording ulog_recording(const TrackSource& source);
+
+/// The trace of an aircraft as readsb and its web sites keep it (trace_full_*.json).
+TrackRecording readsb_recording(const TrackSource& source);
 
 /// MAVLink frames, each after the eight bytes of its time.
 TrackRecording mavlink_log_recording(const TrackSource& source);

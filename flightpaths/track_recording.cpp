@@ -62,15 +62,17 @@ struct Format {
     TrackRecording (*read)(const TrackSource&);
 };
 
-constexpr Format text_formats[] = {{is_acmi, acmi_recording}, {is_gpx, gpx_recording}, {is_kml, kml_recording},
-    {is_xplane_fdr, xplane_fdr_recording}, {is_xplane_data, xplane_data_recording},
-    {is_dataflash_text, dataflash_text_recording}, {is_basestation, basestation_recording}, {is_igc, igc_recording}};
+constexpr Format text_formats[] = {{is_acmi, acmi_recording}, {is_gpx, gpx_recording},
+    {is_readsb_trace, readsb_recording}, {is_kml, kml_recording}, {is_xplane_fdr, xplane_fdr_recording},
+    {is_xplane_data, xplane_data_recording}, {is_dataflash_text, dataflash_text_recording},
+    {is_basestation, basestation_recording}, {is_igc, igc_recording}};
 
 } // namespace
 
 TrackRecording parse_track_recording(
     std::string_view bytes, const std::filesystem::path& file, const std::string& follow) {
     if (is_dataflash_binary(bytes)) { return dataflash_binary_recording({bytes, file, follow}); }
+    if (is_ulog(bytes)) { return ulog_recording({bytes, file, follow}); }
     if (is_mavlink_log(bytes)) { return mavlink_log_recording({bytes, file, follow}); }
     std::string storage;
     std::vector<std::string> notes;

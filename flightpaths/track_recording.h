@@ -27,7 +27,7 @@ enum class GroundContact : std::uint8_t { Unknown, InAir, OnGround };
 struct TrackSample {
     /// Since the recording's first sample of any aircraft; increases from sample to sample.
     double time_s = 0.0;
-    /// Always there; z is the height of HeightKind, 0 where that is Absent.
+    /// Always there; z is the height of HeightKind, assumed_height_m where that is Absent.
     glm::dvec3 position_m{0.0};
     /// Each part alone may be missing.
     glm::dvec3 velocity_mps{not_measured};
@@ -116,9 +116,9 @@ inline constexpr double assumed_height_m = 300.0;
 ///             Theta (deg), Psi (deg), and V_{North} (ft/s), V_{East} (ft/s), V_{Down} (ft/s)
 ///     others: names that log_columns() of log_columns.h knows, such as Timestamp, Latitude, Longitude, Altitude (ft);
 ///             rows of several aircraft are told apart by columns such as icao24 or callsign
-///   tables of numbers without names (FlightGear's generic protocol), BaseStation messages (MSG,3,...)
-///   Tacview ACMI 2.x, GPX, KML, IGC, X-Plane's FDR and Data.txt, ArduPilot's DataFlash (binary and text), MAVLink
-///   telemetry logs
+///   tables of numbers without names (FlightGear's generic protocol), FlySight 2's tables
+///   Tacview ACMI 2.x, GPX, KML, IGC, X-Plane's FDR and Data.txt, ArduPilot's DataFlash (binary and text), PX4's ULog,
+///   MAVLink telemetry logs, BaseStation messages, traces of readsb
 /// `follow`: the name, call sign, id or pilot of the aircraft that becomes the first; empty: the one that is flown by
 /// the recording's pilot, else the one recorded longest. `file` names the bytes in messages. Throws Error with file and
 /// line for text that is none of these and for values that are none; with the file where fewer than 2 samples are left.

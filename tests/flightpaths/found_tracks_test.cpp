@@ -60,7 +60,7 @@ TEST_CASE("KML, flight data recorder files, byte order marks and tracks without 
     check_northward("track.kml", 30.0, 1000.0);
     check_northward("xplane.fdr", 30.0, 1000.0);
     check_northward("igc-bom-lf.igc", 30.0, 1000.0, 1.5);
-    check_northward("gpx-no-ele.gpx", 30.0, 0.0);
+    check_northward("gpx-no-ele.gpx", 30.0, 300.0);
     CHECK(found_recording("gpx-no-ele.gpx").aircraft[0].heights == HeightKind::Absent);
     CHECK_THAT(found_recording("gpx-no-ele.gpx").notes.at(0), Contains("no heights: flown 300 m above the ground"));
     const TrackRecording fdr = found_recording("xplane.fdr");

@@ -85,6 +85,7 @@ OtherTracks other_tracks(const world::World& world, const sim::Trajectory& leade
     const world::PlacedFlight& flight = world.flight;
     const world::Formation formation = world::formation_of(world.scene, flight);
     std::set<std::string> names{flight.name};
+    const std::vector<std::string>& shapes = world.aircraft.inputs.shapes;
     int wingmen = 0;
     for (std::size_t i = 1; i < std::min(most, world.scene.aircraft.size()); ++i) {
         const auto own = flight.other_trajectories.find(i);
@@ -109,7 +110,7 @@ OtherTracks other_tracks(const world::World& world, const sim::Trajectory& leade
         }
         others.trajectories.emplace_back(std::move(states));
         others.tracks.push_back({&others.trajectories.back(),
-            sim::find_aircraft_kind(world.scene.model_of(i).polygons.name), std::move(name)});
+            i < shapes.size() ? sim::find_aircraft_kind(shapes[i]) : nullptr, std::move(name)});
     }
     return others;
 }

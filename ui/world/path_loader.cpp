@@ -64,7 +64,8 @@ constexpr std::size_t max_track_bytes = std::size_t{256} << 20U;
 std::string track_bytes(const fs::path& file) {
     std::string bytes = read_file(file, max_track_bytes);
     if (!bytes.starts_with("PK")) { return bytes; }
-    constexpr std::array known{".acmi", ".txt", ".kml", ".gpx", ".igc", ".csv", ".fdr", ".log", ".bin", ".tlog"};
+    constexpr std::array known{
+        ".acmi", ".txt", ".kml", ".gpx", ".igc", ".csv", ".fdr", ".log", ".bin", ".tlog", ".ulg", ".json"};
     const std::vector<report::ZipEntry> entries = report::zip_entries(file);
     const auto track = std::ranges::find_if(entries, [&](const report::ZipEntry& entry) {
         return std::ranges::find(known, extension_of(entry.name)) != known.end();

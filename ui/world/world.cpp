@@ -221,8 +221,7 @@ void note_limits(const std::vector<std::string>& shapes, World& world) {
 
 /// The shapes of all aircraft of a run: those of the settings, then those of its recordings, whose first aircraft is
 /// the first of the settings.
-std::vector<std::string> shapes_of(
-    const settings::RunSettings& settings, const std::vector<OtherAircraft>& of_recording) {
+std::vector<std::string> shapes_of(const settings::RunSettings& settings, std::span<const OtherAircraft> of_recording) {
     std::vector<std::string> shapes;
     for (const std::string& aircraft : settings.path.aircraft) { shapes.push_back(settings::aircraft_shape(aircraft)); }
     if (shapes.empty()) { return shapes; }
@@ -344,8 +343,8 @@ World load_world(const settings::RunSettings& settings, RenderDevice device, con
     // Paths and names of files are read quickly: errors in them are reported at once.
     std::optional<LoadedPath> path;
     if (!is_live) { path = load_paths(settings); }
-    const AircraftSources inputs =
-        aircraft_sources(settings, shapes_of(settings, path ? path->others : std::vector<OtherAircraft>()));
+    const AircraftSources inputs = aircraft_sources(settings,
+        shapes_of(settings, path ? std::span<const OtherAircraft>(path->others) : std::span<const OtherAircraft>()));
     // At the same time, because finding a painting order takes one thread. Errors of the aircraft come first.
     constexpr bool on_two_threads = true;
     auto [aircraft, loaded] = run_both(

@@ -117,6 +117,13 @@ const Registered target({
 
 } // namespace basestation
 
+template <class Number>
+std::string bytes_of(Number number) {
+    std::string bytes(sizeof(number), '\0');
+    std::memcpy(bytes.data(), &number, sizeof(number));
+    return bytes;
+}
+
 namespace dataflash {
 
 std::string padded(std::string text, std::size_t size) {
@@ -130,13 +137,6 @@ std::string format(
     char kind, std::uint8_t length, const std::string& name, const std::string& types, const std::string& columns) {
     return message('\x80',
         std::string(1, kind) + static_cast<char>(length) + padded(name, 4) + padded(types, 16) + padded(columns, 64));
-}
-
-template <class Number>
-std::string bytes_of(Number number) {
-    std::string bytes(sizeof(number), '\0');
-    std::memcpy(bytes.data(), &number, sizeof(number));
-    return bytes;
 }
 
 std::vector<std::string> seeds() {
@@ -288,6 +288,61 @@ const Registered target(
     {.name = "mavlink_log", .file = "input.tlog", .use = use_recording, .seeds = seeds, .words = {"\xFE", "\xFD"}});
 
 } // namespace mavlink_log
+
+namespace readsb_trace {
+
+const Registered target({
+    .name = "readsb_trace",
+    .file = "trace_full_abc.json",
+    .use = use_recording,
+    .seeds =
+        [] {
+            return std::vector<std::string>{
+                R"({"icao":"abc123","t":"B739","timestamp":1738703622.6,"trace":[[0,47,8,"ground",12,90,0,0,null,"a",null,null,null,null],)"
+                R"([9,47.001,8,1000,120,0,0,640,{"flight":"DAL1 "},"a",1100,640,110,1.5],[18,47.01,8,1100,120,0,0,null,null,"a",1200,0,null,null]]})"};
+        },
+    .words = {"null", "\"ground\"", "[", "]", "{}", "\"trace\":", "\"timestamp\":", "1e300", "-1"},
+});
+
+} // namespace readsb_trace
+
+namespace ulog {
+
+std::string message(char type, const std::string& payload) {
+    return bytes_of(static_cast<std::uint16_t>(payload.size())) + type + payload;
+}
+
+std::vector<std::string> seeds() {
+    std::string log("ULog\x01\x12\x35\x01", 8);
+    log += bytes_of(std::uint64_t{1});
+    log += message('F', "vehicle_global_position:uint64_t timestamp;double lat;double lon;float alt;");
+    log += message('F', "vehicle_attitude:uint64_t timestamp;float[4] q;uint8_t[3] _padding0;");
+    log += message('F', "vehicle_gps_position:uint64_t timestamp;uint64_t time_utc_usec;int32_t lat;int32_t "
+                        "lon;int32_t alt;float vel_n_m_s;float vel_e_m_s;float vel_d_m_s;uint8_t fix_type;");
+    log += message('A', std::string("\0\x01\0", 3) + "vehicle_global_position") +
+           message('A', std::string("\0\x02\0", 3) + "vehicle_attitude") +
+           message('A', std::string("\0\x03\0", 3) + "vehicle_gps_position");
+    for (std::uint64_t i = 1; i < 4; ++i) {
+        const std::string time = bytes_of(i * 100000);
+        log += message(
+            'D', std::string("\x02\0", 2) + time + bytes_of(1.0F) + bytes_of(0.0F) + bytes_of(0.0F) + bytes_of(0.0F));
+        log += message('D', std::string("\x01\0", 2) + time + bytes_of(47.0 + 1e-6 * static_cast<double>(i)) +
+                                bytes_of(8.0) + bytes_of(500.0F));
+        log += message('D', std::string("\x03\0", 2) + time + bytes_of(std::uint64_t{1500000000000000}) +
+                                bytes_of(std::int32_t{470000000}) + bytes_of(std::int32_t{80000000}) +
+                                bytes_of(std::int32_t{500000}) + bytes_of(1.0F) + bytes_of(1.0F) + bytes_of(0.0F) +
+                                "\x03");
+    }
+    return {log};
+}
+
+const Registered target({.name = "ulog",
+    .file = "input.ulg",
+    .use = use_recording,
+    .seeds = seeds,
+    .words = {"float[4] q;", "double lat;", "uint64_t timestamp;", "vehicle_attitude", "[", "];", ":"}});
+
+} // namespace ulog
 
 namespace xplane_tracks {
 

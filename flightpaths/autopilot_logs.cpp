@@ -1,10 +1,11 @@
 // ArduPilot's logs (ardupilot.org, "Diagnosing problems using logs", and the structure of its messages, which each log
-// describes itself in FMT messages).
+// describes itself in FMT messages), and PX4's (docs.px4.io, "ULog File Format").
 
 #include "flightpaths/fix_table.h"
 #include "flightpaths/track_readers.h"
 #include "sim/base/error.h"
 #include "sim/base/text_file.h"
+#include "sim/base/units.h"
 
 #include <algorithm>
 #include <array>
@@ -71,6 +72,11 @@ public:
         } else {
             take_place(message);
         }
+    }
+
+    /// UTC at a time of the log; the first that is told counts.
+    void set_clock(double utc_s, double time_s) {
+        if (!fixes_.begin_utc_s) { fixes_.begin_utc_s = utc_s - time_s; }
     }
 
     TrackRecording recording() && {
@@ -154,7 +160,7 @@ private:
         constexpr double epoch_s = 315964800.0;
         constexpr double week_s = 604800.0;
         constexpr double behind_s = 18.0;
-        fixes_.begin_utc_s = epoch_s + week * week_s + ms * 1e-3 - behind_s - time_s;
+        set_clock(epoch_s + week * week_s + ms * 1e-3 - behind_s, time_s);
     }
 
     /// The attitude at the time of a place, between the two around it where they are near.
@@ -385,5 +391,170 @@ TrackRecording dataflash_text_recording(const TrackSource& source) {
     }
     return std::move(flight).recording();
 }
+
+namespace {
+
+constexpr std::string_view ulog_magic("ULog\x01\x12\x35", 7);
+constexpr std::size_t ulog_head_bytes = 16;
+
+/// Where a field of a logged message lies.
+struct UlogField {
+    std::string name;
+    char type = '\0'; ///< as of value_of()
+    std::size_t offset = 0;
+};
+
+/// The type letter of value_of() and the bytes of a type of ULog; nothing for other types.
+std::optional<std::pair<char, std::size_t>> ulog_type(std::string_view name) {
+    struct KnownType {
+        std::string_view name;
+        char letter;
+        std::size_t bytes;
+    };
+
+    static constexpr std::array known{KnownType{"int8_t", 'b', 1}, KnownType{"uint8_t", 'B', 1},
+        KnownType{"bool", 'B', 1}, KnownType{"char", 'B', 1}, KnownType{"int16_t", 'h', 2},
+        KnownType{"uint16_t", 'H', 2}, KnownType{"int32_t", 'i', 4}, KnownType{"uint32_t", 'I', 4},
+        KnownType{"float", 'f', 4}, KnownType{"double", 'd', 8}, KnownType{"int64_t", 'q', 8},
+        KnownType{"uint64_t", 'Q', 8}};
+    const auto found = std::ranges::find(known, name, &KnownType::name);
+    return found == known.end() ? std::nullopt : std::optional(std::pair(found->letter, found->bytes));
+}
+
+/// The fields of a format "timestamp type; float[4] q; ..." up to the first of another format; each element of an array
+/// is a field of its own, q0, q1, ...
+std::vector<UlogField> ulog_fields(std::string_view format) {
+    std::vector<UlogField> fields;
+    std::size_t offset = 0;
+    for (const std::string_view field : split_fields(format, ';')) {
+        const auto words = split_words(field);
+        if (words.size() != 2) { break; }
+        const std::size_t bracket = words[0].find('[');
+        const auto type = ulog_type(words[0].substr(0, bracket));
+        if (!type) { break; }
+        const std::size_t close = words[0].find(']');
+        constexpr long most = 256;
+        const auto count = bracket == words[0].npos ? std::optional<long>(1)
+                                                    : whole_number(words[0].substr(bracket + 1, close - bracket - 1));
+        if (!count || *count < 1 || *count > most) { break; }
+        for (long i = 0; i < *count; ++i) {
+            fields.push_back(
+                {*count == 1 ? std::string(words[1]) : fmt::format("{}{}", words[1], i), type->first, offset});
+            offset += type->second;
+        }
+    }
+    return fields;
+}
+
+/// Turns the messages of a ULog into those of LogFlight.
+class UlogReader {
+public:
+    explicit UlogReader(const TrackSource& source) : source_(source), flight_(source, "PX4 ULog") {}
+
+    TrackRecording read() {
+        constexpr std::size_t head = 3;
+        std::string_view rest = source_.bytes.substr(std::min(ulog_head_bytes, source_.bytes.size()));
+        while (rest.size() > head) {
+            const auto size = static_cast<std::size_t>(number_in<std::uint16_t>(rest));
+            if (head + size > rest.size()) { break; } // a log of an autopilot that lost its power
+            take(rest[2], rest.substr(head, size));
+            rest.remove_prefix(head + size);
+        }
+        return std::move(flight_).recording();
+    }
+
+private:
+    void take(char type, std::string_view held) {
+        constexpr std::size_t name_at = 3;
+        if (type == 'F') {
+            const std::size_t colon = held.find(':');
+            if (colon != held.npos) {
+                formats_[std::string(held.substr(0, colon))] = ulog_fields(held.substr(colon + 1));
+            }
+        } else if (type == 'A' && held.size() > name_at) {
+            const bool is_first = held[0] == '\0';
+            if (is_first) {
+                names_[static_cast<std::uint16_t>(number_in<std::uint16_t>(held.substr(1)))] = held.substr(name_at);
+            }
+        } else if (type == 'D' && held.size() > 2) {
+            const auto name = names_.find(static_cast<std::uint16_t>(number_in<std::uint16_t>(held)));
+            if (name != names_.end()) { take_data(name->second, held.substr(2)); }
+        }
+    }
+
+    /// not_measured where there is no such field.
+    static double field(const std::vector<UlogField>& fields, std::string_view data, std::string_view name) {
+        const auto found = std::ranges::find(fields, name, &UlogField::name);
+        if (found == fields.end()) { return not_measured; }
+        const std::size_t bytes = bytes_of(found->type);
+        return found->offset + bytes > data.size() ? not_measured
+                                                   : value_of(found->type, data.substr(found->offset, bytes));
+    }
+
+    void take_data(const std::string& name, std::string_view data) {
+        const auto format = formats_.find(name);
+        if (format == formats_.end()) { return; }
+        const auto value = [&](std::string_view of) { return field(format->second, data, of); };
+        if (name == "vehicle_attitude") {
+            send("ATT", attitude_columns_, attitude(value));
+        } else if (name == "vehicle_global_position") {
+            send("POS", place_columns_, {value("timestamp"), value("lat"), value("lon"), value("alt")});
+        } else if (name == "vehicle_gps_position" || name == "sensor_gps") {
+            send_receiver(value);
+        }
+    }
+
+    /// Roll, pitch and yaw of the quaternion that takes body axes to north, east, down.
+    template <class Value>
+    static std::vector<double> attitude(const Value& value) {
+        const double w = value("q0");
+        const double x = value("q1");
+        const double y = value("q2");
+        const double z = value("q3");
+        const double roll_rad = std::atan2(2.0 * (w * x + y * z), 1.0 - 2.0 * (x * x + y * y));
+        const double pitch_rad = std::asin(std::clamp(2.0 * (w * y - z * x), -1.0, 1.0));
+        const double yaw_rad = std::atan2(2.0 * (w * z + x * y), 1.0 - 2.0 * (y * y + z * z));
+        return {value("timestamp"), deg_from_rad(roll_rad), deg_from_rad(pitch_rad), deg_from_rad(yaw_rad)};
+    }
+
+    /// Older logs have whole numbers of 1e-7 degrees and millimetres.
+    template <class Value>
+    void send_receiver(const Value& value) {
+        const double time_us = value("timestamp");
+        const double latitude_deg = value("latitude_deg");
+        const bool is_old = std::isnan(latitude_deg);
+        const double north_mps = value("vel_n_m_s");
+        const double east_mps = value("vel_e_m_s");
+        send("GPS", receiver_columns_,
+            {time_us, value("fix_type"), is_old ? value("lat") * 1e-7 : latitude_deg,
+                is_old ? value("lon") * 1e-7 : value("longitude_deg"),
+                is_old ? value("alt") * 1e-3 : value("altitude_msl_m"), std::hypot(north_mps, east_mps),
+                deg_from_rad(std::atan2(east_mps, north_mps)), value("vel_d_m_s")});
+        const double utc_us = value("time_utc_usec");
+        if (utc_us > 0.0) { flight_.set_clock(utc_us * 1e-6, time_us * 1e-6); }
+    }
+
+    void send(std::string_view name, const std::vector<std::string>& columns, std::vector<double> values) {
+        LogMessage message;
+        message.name = name;
+        message.columns = &columns;
+        message.values = std::move(values);
+        flight_.take(message);
+    }
+
+    const TrackSource& source_;
+    LogFlight flight_;
+    std::map<std::string, std::vector<UlogField>, std::less<>> formats_;
+    std::map<std::uint16_t, std::string> names_;
+    std::vector<std::string> attitude_columns_{"TimeUS", "Roll", "Pitch", "Yaw"};
+    std::vector<std::string> place_columns_{"TimeUS", "Lat", "Lng", "Alt"};
+    std::vector<std::string> receiver_columns_{"TimeUS", "Status", "Lat", "Lng", "Alt", "Spd", "GCrs", "VZ"};
+};
+
+} // namespace
+
+bool is_ulog(std::string_view bytes) { return bytes.starts_with(ulog_magic); }
+
+TrackRecording ulog_recording(const TrackSource& source) { return UlogReader(source).read(); }
 
 } // namespace octant::flightpaths
