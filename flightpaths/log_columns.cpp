@@ -6,10 +6,17 @@
 #include <algorithm>
 #include <cctype>
 #include <chrono>
+#include <cmath>
 #include <iterator>
 #include <utility>
 
 namespace octant::flightpaths {
+
+std::string in_small_letters(std::string_view text) {
+    std::string small(text);
+    std::ranges::transform(small, small.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return small;
+}
 
 namespace {
 
@@ -64,26 +71,67 @@ std::optional<double> taken_date(std::string_view& text) {
     return day_s * static_cast<double>(sys_days{date}.time_since_epoch().count());
 }
 
-/// True if the text is empty or begins like a time zone: Z, UTC, GMT, +01:00.
-bool is_zone(std::string_view text) {
-    return text.empty() || text == "Z" || text == " UTC" || text == " GMT" || text.front() == '+' ||
-           text.front() == '-';
+/// A text without the rest that was not taken.
+std::string_view without(std::string_view text, std::string_view rest) {
+    return text.substr(0, text.size() - rest.size());
+}
+
+/// True if a clock's text has a second 60.
+bool is_second_60(double clock_s, std::string_view text) {
+    constexpr double minute_s = 60.0;
+    const std::size_t last = text.rfind(':');
+    return last != text.npos && text.substr(last + 1).starts_with("60") && std::fmod(clock_s, minute_s) < 1.0;
 }
 
 } // namespace
 
+std::optional<double> zone_offset_s(std::string_view text) {
+    while (text.starts_with(' ')) { text.remove_prefix(1); }
+    if (text.empty() || text == "Z" || text == "UTC" || text == "GMT") { return 0.0; }
+    if (text.front() != '+' && text.front() != '-') { return std::nullopt; }
+    std::string digits(text.substr(1));
+    std::erase(digits, ':');
+    const auto number = whole_number(digits);
+    constexpr std::size_t hours_only = 2;
+    constexpr std::size_t with_minutes = 4;
+    if (!number || *number < 0 || (digits.size() != hours_only && digits.size() != with_minutes)) {
+        return std::nullopt;
+    }
+    constexpr long in_an_hour = 100;
+    const long hours = digits.size() == with_minutes ? *number / in_an_hour : *number;
+    const long minutes = digits.size() == with_minutes ? *number % in_an_hour : 0;
+    const double size_s = 3600.0 * static_cast<double>(hours) + 60.0 * static_cast<double>(minutes);
+    return text.front() == '-' ? -size_s : size_s;
+}
+
+std::optional<double> log_date(std::string_view text) {
+    constexpr std::size_t compact = 8;
+    std::string whole(text);
+    if (whole.size() == compact && std::ranges::all_of(whole, is_digit)) {
+        whole = whole.substr(0, 4) + "-" + whole.substr(4, 2) + "-" + whole.substr(6, 2);
+    }
+    whole += 'T';
+    std::string_view rest = whole;
+    const auto date_s = taken_date(rest);
+    return rest.empty() ? date_s : std::nullopt;
+}
+
 std::optional<LogTime> log_time(std::string_view text) {
     if (const auto number = finite_number(text)) { return LogTime{.seconds = *number}; }
     std::string_view rest = text;
-    if (const auto clock_s = taken_clock(rest); clock_s && is_zone(rest)) {
-        return LogTime{.seconds = *clock_s, .is_time_of_day = true};
+    if (const auto clock_s = taken_clock(rest); clock_s && zone_offset_s(rest)) {
+        return LogTime{
+            .seconds = *clock_s, .is_time_of_day = true, .is_leap_second = is_second_60(*clock_s, without(text, rest))};
     }
     rest = text;
     const auto date_s = taken_date(rest);
     if (!date_s) { return std::nullopt; }
     const auto clock_s = taken_clock(rest);
-    if (!clock_s || !is_zone(rest)) { return std::nullopt; }
-    return LogTime{.seconds = *date_s + *clock_s};
+    const auto zone_s = zone_offset_s(rest);
+    if (!clock_s || !zone_s) { return std::nullopt; }
+    return LogTime{.seconds = *date_s + *clock_s - *zone_s,
+        .is_date = true,
+        .is_leap_second = is_second_60(*clock_s, without(text, rest))};
 }
 
 namespace {
@@ -94,8 +142,9 @@ struct KnownLog {
 };
 
 /// Names in lower case without blanks and underscores. If a log has several names of one quantity, the first in this
-/// table is used. Compass headings (HDG of the G1000) are not in the table because they are magnetic.
+/// table is used.
 constexpr std::array known_names{
+    KnownLog{LogQuantity::Time, "lastposupdate"},
     KnownLog{LogQuantity::Time, "timestamp"},
     KnownLog{LogQuantity::Time, "time"},
     KnownLog{LogQuantity::Time, "t"},
@@ -109,6 +158,20 @@ constexpr std::array known_names{
     KnownLog{LogQuantity::Time, "lcltime"},
     KnownLog{LogQuantity::Time, "elapsedtime"},
     KnownLog{LogQuantity::Time, "seconds"},
+    KnownLog{LogQuantity::Time, "timeposition"},
+    KnownLog{LogQuantity::Time, "gpstime"},
+    KnownLog{LogQuantity::Time, "secs"},
+    KnownLog{LogQuantity::Time, "simtime"},
+    KnownLog{LogQuantity::Clock, "datetime"},
+    KnownLog{LogQuantity::Clock, "utc"},
+    KnownLog{LogQuantity::Clock, "timeutc"},
+    KnownLog{LogQuantity::Clock, "utctime"},
+    KnownLog{LogQuantity::Date, "lcldate"},
+    KnownLog{LogQuantity::Date, "date"},
+    KnownLog{LogQuantity::Date, "utcdate"},
+    KnownLog{LogQuantity::Date, "gpsdate"},
+    KnownLog{LogQuantity::UtcOffset, "utcofst"},
+    KnownLog{LogQuantity::UtcOffset, "utcoffset"},
     KnownLog{LogQuantity::Latitude, "latitude"},
     KnownLog{LogQuantity::Latitude, "lat"},
     KnownLog{LogQuantity::Latitude, "gpslatitude"},
@@ -117,7 +180,11 @@ constexpr std::array known_names{
     KnownLog{LogQuantity::Longitude, "lng"},
     KnownLog{LogQuantity::Longitude, "long"},
     KnownLog{LogQuantity::Longitude, "gpslongitude"},
+    KnownLog{LogQuantity::NorthSouth, "n/s"},
+    KnownLog{LogQuantity::EastWest, "e/w"},
     KnownLog{LogQuantity::Position, "position"},
+    KnownLog{LogQuantity::Latitude, "latitudedeg"},
+    KnownLog{LogQuantity::Longitude, "longitudedeg"},
     KnownLog{LogQuantity::Altitude, "altitudeabovesealevel"},
     KnownLog{LogQuantity::Altitude, "altitudemsl"},
     KnownLog{LogQuantity::Altitude, "altmsl"},
@@ -128,20 +195,72 @@ constexpr std::array known_names{
     KnownLog{LogQuantity::Altitude, "gpsaltitude"},
     KnownLog{LogQuantity::Altitude, "altitude"},
     KnownLog{LogQuantity::Altitude, "alt"},
-    KnownLog{LogQuantity::Altitude, "baroaltitude"},
     KnownLog{LogQuantity::Altitude, "elevation"},
     KnownLog{LogQuantity::Altitude, "ele"},
     KnownLog{LogQuantity::Altitude, "height"},
+    KnownLog{LogQuantity::Altitude, "altitudegps"},
+    KnownLog{LogQuantity::Altitude, "altgps"},
+    KnownLog{LogQuantity::Altitude, "altgeom"},
+    KnownLog{LogQuantity::PressureAltitude, "baroaltitude"},
+    KnownLog{LogQuantity::PressureAltitude, "altbaro"},
+    KnownLog{LogQuantity::PressureAltitude, "pressurealtitude"},
+    KnownLog{LogQuantity::PressureAltitude, "pressalt"},
     KnownLog{LogQuantity::Roll, "roll"},
     KnownLog{LogQuantity::Roll, "bank"},
+    KnownLog{LogQuantity::Roll, "rollangle"},
     KnownLog{LogQuantity::Pitch, "pitch"},
+    KnownLog{LogQuantity::Pitch, "pitchangle"},
     KnownLog{LogQuantity::Heading, "trueheading"},
     KnownLog{LogQuantity::Heading, "headingtrue"},
+    KnownLog{LogQuantity::Heading, "hdingtrue"},
     KnownLog{LogQuantity::Heading, "heading"},
     KnownLog{LogQuantity::Heading, "yaw"},
+    KnownLog{LogQuantity::MagneticHeading, "hdg"},
+    KnownLog{LogQuantity::MagneticHeading, "magneticheading"},
+    KnownLog{LogQuantity::MagneticHeading, "headingmagnetic"},
+    KnownLog{LogQuantity::MagneticHeading, "magheading"},
+    KnownLog{LogQuantity::Track, "track"},
+    KnownLog{LogQuantity::Track, "truetrack"},
+    KnownLog{LogQuantity::Track, "direction"},
+    KnownLog{LogQuantity::Track, "course"},
+    KnownLog{LogQuantity::Track, "groundtrack"},
+    KnownLog{LogQuantity::Track, "gpsgroundtrack"},
+    KnownLog{LogQuantity::GroundSpeed, "groundspeed"},
+    KnownLog{LogQuantity::GroundSpeed, "gndspd"},
+    KnownLog{LogQuantity::GroundSpeed, "gpsgroundspeed"},
+    KnownLog{LogQuantity::GroundSpeed, "gs"},
+    KnownLog{LogQuantity::GroundSpeed, "velocity"},
+    KnownLog{LogQuantity::GroundSpeed, "speed"},
+    KnownLog{LogQuantity::GroundSpeed, "gpsspeed"},
+    KnownLog{LogQuantity::Climb, "vertrate"},
+    KnownLog{LogQuantity::Climb, "verticalrate"},
+    KnownLog{LogQuantity::Climb, "verticalspeed"},
+    KnownLog{LogQuantity::Climb, "vspd"},
+    KnownLog{LogQuantity::Climb, "baroverticalspeed"},
+    KnownLog{LogQuantity::TrueAirspeed, "tas"},
+    KnownLog{LogQuantity::TrueAirspeed, "trueairspeed"},
     KnownLog{LogQuantity::NorthSpeed, "veln"},
     KnownLog{LogQuantity::EastSpeed, "vele"},
     KnownLog{LogQuantity::DownSpeed, "veld"},
+    KnownLog{LogQuantity::LoadFactor, "normg"},
+    KnownLog{LogQuantity::LoadFactor, "loadfactor"},
+    KnownLog{LogQuantity::HorizontalError, "hacc"},
+    KnownLog{LogQuantity::VerticalError, "vacc"},
+    KnownLog{LogQuantity::OnGround, "onground"},
+    KnownLog{LogQuantity::OnGround, "isonground"},
+    KnownLog{LogQuantity::Id, "icao24"},
+    KnownLog{LogQuantity::Id, "icao"},
+    KnownLog{LogQuantity::Id, "icaoaddress"},
+    KnownLog{LogQuantity::Id, "hexident"},
+    KnownLog{LogQuantity::Id, "hex"},
+    KnownLog{LogQuantity::Id, "modes"},
+    KnownLog{LogQuantity::Id, "flightid"},
+    KnownLog{LogQuantity::Id, "aircraftid"},
+    KnownLog{LogQuantity::Id, "objectid"},
+    KnownLog{LogQuantity::Id, "trackid"},
+    KnownLog{LogQuantity::CallSign, "callsign"},
+    KnownLog{LogQuantity::CallSign, "flight"},
+    KnownLog{LogQuantity::CallSign, "flightnumber"},
 };
 
 struct LogUnit {
@@ -152,6 +271,7 @@ struct LogUnit {
 const std::array known_units{
     LogUnit{"ft", m_from_ft(1.0)},
     LogUnit{"feet", m_from_ft(1.0)},
+    LogUnit{"ftmsl", m_from_ft(1.0)},
     LogUnit{"m", 1.0},
     LogUnit{"meters", 1.0},
     LogUnit{"metres", 1.0},
@@ -160,6 +280,19 @@ const std::array known_units{
     LogUnit{"km", 1000.0},
     LogUnit{"m/s", 1.0},
     LogUnit{"mps", 1.0},
+    LogUnit{"ms", 1e-3},
+    LogUnit{"kt", mps_from_kt(1.0)},
+    LogUnit{"kts", mps_from_kt(1.0)},
+    LogUnit{"knots", mps_from_kt(1.0)},
+    LogUnit{"km/h", 1.0 / 3.6},
+    LogUnit{"kmh", 1.0 / 3.6},
+    LogUnit{"kph", 1.0 / 3.6},
+    LogUnit{"mph", 0.44704},
+    LogUnit{"ft/min", m_from_ft(1.0) / 60.0},
+    LogUnit{"fpm", m_from_ft(1.0) / 60.0},
+    LogUnit{"ft/s", m_from_ft(1.0)},
+    LogUnit{"fps", m_from_ft(1.0)},
+    LogUnit{"g", 1.0},
     LogUnit{"deg", 1.0},
     LogUnit{"degrees", 1.0},
     LogUnit{"rad", deg_from_rad(1.0)},
@@ -167,17 +300,10 @@ const std::array known_units{
     LogUnit{"s", 1.0},
     LogUnit{"sec", 1.0},
     LogUnit{"seconds", 1.0},
-    LogUnit{"ms", 1e-3},
     LogUnit{"millisecond", 1e-3},
     LogUnit{"milliseconds", 1e-3},
     LogUnit{"us", 1e-6},
 };
-
-std::string in_small_letters(std::string_view text) {
-    std::string small(text);
-    std::ranges::transform(small, small.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return small;
-}
 
 /// The factor of the first word of a unit such as "ft msl" or "(m/s)".
 std::optional<double> factor_of(std::string_view text) {
@@ -208,9 +334,17 @@ LogName name_of(std::string_view text) {
     return name;
 }
 
-bool is_of_flightradar(const std::vector<LogName>& names) {
+bool is_flightradar(const std::vector<LogName>& names) {
     return std::ranges::any_of(
         names, [](const LogName& name) { return name.plain == "position" || name.plain == "networktime"; });
+}
+
+HeightKind kind_of(const std::string& name) {
+    if (name == "geoaltitude" || name == "altgeom") { return HeightKind::Ellipsoid; }
+    for (const char* sea : {"sea", "msl", "asl", "gps"}) {
+        if (name.find(sea) != name.npos) { return HeightKind::Sea; }
+    }
+    return HeightKind::Unknown;
 }
 
 } // namespace
@@ -231,11 +365,22 @@ std::optional<LogColumns> log_columns(
     }
     const bool has_place =
         columns[LogQuantity::Position] || (columns[LogQuantity::Latitude] && columns[LogQuantity::Longitude]);
+    if (!columns[LogQuantity::Time] || !has_place) { return std::nullopt; }
+    const bool is_of_flightradar = is_flightradar(plain);
     auto& altitude = columns.of[static_cast<std::size_t>(LogQuantity::Altitude)];
-    if (!columns[LogQuantity::Time] || !has_place || !altitude) { return std::nullopt; }
-    if (!altitude->has_unit && is_of_flightradar(plain)) {
+    if (altitude && !altitude->has_unit && is_of_flightradar) {
         altitude->factor = m_from_ft(1.0);
         altitude->has_unit = true;
+    }
+    auto& climb = columns.of[static_cast<std::size_t>(LogQuantity::Climb)];
+    if (climb && !climb->has_unit && plain[climb->field].plain != "vertrate") { climb.reset(); }
+    // What Flightradar24 calls direction, and OpenSky heading, is the way over the ground.
+    if (columns[LogQuantity::Id] && !columns[LogQuantity::Roll] && columns[LogQuantity::Heading]) {
+        std::swap(columns.of[static_cast<std::size_t>(LogQuantity::Heading)],
+            columns.of[static_cast<std::size_t>(LogQuantity::Track)]);
+    }
+    if (altitude) {
+        columns.heights = is_of_flightradar ? HeightKind::Pressure : kind_of(plain[altitude->field].plain);
     }
     return columns;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "flightpaths/track_recording.h"
 #include "sim/base/earth_frame.h"
 #include "sim/trajectory.h"
 
@@ -20,23 +21,12 @@ struct RecordedTrack {
     std::vector<std::string> notes;
 };
 
-/// Reads a recorded flight from a text file: a line of column names, then one line per sample, separated by commas,
-/// tabs or semicolons. Columns are found by name, in any order and in upper or lower case; other columns are ignored.
-/// Empty lines and lines that begin with # may precede the names.
-///   Octant: t_s, north_m, east_m, alt_m; optional roll_deg, pitch_deg, yaw_deg (all three),
-///           v_north_mps, v_east_mps, v_up_mps (all three), n_g; q_w, q_x, q_y, q_z (all four or
-///           none): the rotation from body to world, used in place of the angles
-///   JSBSim: Time, Latitude Geodetic (deg) or Latitude (deg), Longitude (deg), Altitude ASL (ft);
-///           optional Phi (deg), Theta (deg), Psi (deg), and V_{North} (ft/s), V_{East} (ft/s),
-///           V_{Down} (ft/s)
-///   others: names that log_columns() of log_columns.h knows, such as Timestamp, Latitude, Longitude,
-///           Altitude (ft)
-/// Flight recorder files (IGC) and GPX files are recognised by their content. Optional quantities that are missing are
-/// derived from the motion (derived_motion.h). A quaternion of unit length, rounding aside, is not normalised again, so
-/// a track that exact_track_csv wrote is read back to the last bit. Throws Error with file and line for a missing or
-/// doubled column, too few or too many fields, a value that is not a finite number, times that do not increase, span
-/// more than a day or are more than 1e7 s from zero, fewer than 2 samples, a speed above 3000 m/s, or a quaternion
-/// whose length differs from 1 by more than 1e-6.
+/// The motion of the followed aircraft of a file that parse_track_recording() reads (track_recording.h). A quaternion
+/// of unit length, rounding aside, is not normalised again, so a track that exact_track_csv wrote is read back to the
+/// last bit. Throws Error as parse_track_recording(); for tables of Octant and JSBSim with file and line also for a
+/// missing or doubled column, too few or too many fields, a value that is not a finite number, times that do not
+/// increase, span more than a day or are more than 1e7 s from zero, a speed above 3000 m/s, or a quaternion whose
+/// length differs from 1 by more than 1e-6.
 RecordedTrack read_recorded_track(const std::filesystem::path& file);
 
 } // namespace octant::flightpaths

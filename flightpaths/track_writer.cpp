@@ -11,10 +11,12 @@
 
 #include <glm/geometric.hpp>
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <fmt/format.h>
 #include <string_view>
-#include <utility>
+#include <vector>
 
 namespace octant::flightpaths {
 
@@ -47,11 +49,11 @@ std::string acmi_text(std::string_view text) {
     return out;
 }
 
-std::string properties_of(const AcmiHeader& header) {
-    if (header.kind != nullptr) {
-        return fmt::format("Type={},Name={}", header.kind->tacview_type, header.kind->tacview_name);
-    }
-    return "Type=Air+FixedWing,Name=" + acmi_text(header.aircraft);
+/// `name`: of an aircraft without a type.
+std::string properties_of(const sim::AircraftKind* kind, const std::string& name, const std::string& call_sign) {
+    return (kind != nullptr ? fmt::format("Type={},Name={}", kind->tacview_type, kind->tacview_name)
+                            : "Type=Air+FixedWing,Name=" + acmi_text(name)) +
+           (call_sign.empty() ? "" : ",CallSign=" + acmi_text(call_sign));
 }
 
 std::string acmi_transform(const sim::AircraftState& state, const EarthFrame& frame) {
@@ -83,9 +85,56 @@ std::string track_csv_line(const sim::AircraftState& state) {
         fixed(state.velocity_mps.x, 4), fixed(state.velocity_mps.z, 4));
 }
 
-std::string track_csv(const sim::Trajectory& trajectory) {
+namespace {
+
+/// A sample of one of several aircraft; 0 is the first one.
+struct SampleOfSeveral {
+    double time_s = 0.0;
+    std::size_t aircraft = 0;
+    std::size_t sample = 0;
+};
+
+/// The samples of a flight and of its other aircraft in order of time, of one time in that of the aircraft.
+std::vector<SampleOfSeveral> in_order_of_time(const sim::Trajectory& first, std::span<const WrittenTrack> others) {
+    std::vector<SampleOfSeveral> all;
+    const auto add = [&](std::size_t aircraft, const sim::Trajectory& trajectory) {
+        for (std::size_t i = 0; i < trajectory.samples().size(); ++i) {
+            all.push_back({trajectory.samples()[i].time_s, aircraft, i});
+        }
+    };
+    add(0, first);
+    for (std::size_t i = 0; i < others.size(); ++i) { add(i + 1, *others[i].trajectory); }
+    std::ranges::stable_sort(all, {}, &SampleOfSeveral::time_s);
+    return all;
+}
+
+/// A field of a table, in quotes.
+std::string csv_text(std::string_view text) {
+    std::string out = "\"";
+    for (const char c : text) { out += static_cast<unsigned char>(c) < 0x20 || c == '"' ? ' ' : c; }
+    return out + "\"";
+}
+
+} // namespace
+
+std::string track_csv(
+    const sim::Trajectory& trajectory, const std::string& name, std::span<const WrittenTrack> others) {
     std::string text = track_csv_names();
-    for (const sim::AircraftState& state : trajectory.samples()) { text += track_csv_line(state); }
+    if (others.empty()) {
+        for (const sim::AircraftState& state : trajectory.samples()) { text += track_csv_line(state); }
+        return text;
+    }
+    const auto add = [&](std::string line, std::string_view field) {
+        line.pop_back();
+        text += line + "," + std::string(field) + "\n";
+    };
+    text.clear();
+    add(track_csv_names(), "aircraft");
+    for (const SampleOfSeveral& at : in_order_of_time(trajectory, others)) {
+        const sim::Trajectory& path = at.aircraft == 0 ? trajectory : *others[at.aircraft - 1].trajectory;
+        add(track_csv_line(path.samples()[at.sample]),
+            csv_text(at.aircraft == 0 ? name : others[at.aircraft - 1].name));
+    }
     return text;
 }
 
@@ -113,15 +162,38 @@ std::string acmi_head(const AcmiHeader& header) {
 std::string acmi_state(const sim::AircraftState& state, const AcmiHeader& header, bool is_first) {
     return fmt::format("#{}\n1,{}{},TAS={}\n", fixed(state.time_s, 3),
         acmi_transform(state, frame_or_at_zero(header.frame)),
-        is_first ? "," + properties_of(header) + ",Color=Blue" : "", fixed(glm::length(state.velocity_mps), 1));
+        is_first ? "," + properties_of(header.kind, header.aircraft, header.call_sign) + ",Color=Blue" : "",
+        fixed(glm::length(state.velocity_mps), 1));
 }
+
+namespace {
+
+/// A state of another aircraft, with its end after the last one.
+std::string acmi_state_of_other(
+    const WrittenTrack& other, std::size_t number, std::size_t sample, const EarthFrame& frame) {
+    const auto samples = other.trajectory->samples();
+    const sim::AircraftState& state = samples[sample];
+    std::string text =
+        fmt::format("#{}\n{:x},{}{},TAS={}\n", fixed(state.time_s, 3), number, acmi_transform(state, frame),
+            sample == 0 ? "," + properties_of(other.kind, other.name, other.name) + ",Color=Red" : "",
+            fixed(glm::length(state.velocity_mps), 1));
+    if (sample + 1 == samples.size()) { text += fmt::format("-{:x}\n", number); }
+    return text;
+}
+
+} // namespace
 
 std::string track_acmi(const sim::Trajectory& trajectory, const AcmiHeader& header) {
     std::string text = acmi_head(header);
     auto bookmark = header.bookmarks.begin();
-    bool first = true;
-    for (const sim::AircraftState& state : trajectory.samples()) {
-        text += acmi_state(state, header, std::exchange(first, false));
+    for (const SampleOfSeveral& at : in_order_of_time(trajectory, header.others)) {
+        if (at.aircraft > 0) {
+            text += acmi_state_of_other(
+                header.others[at.aircraft - 1], at.aircraft + 1, at.sample, frame_or_at_zero(header.frame));
+            continue;
+        }
+        const sim::AircraftState& state = trajectory.samples()[at.sample];
+        text += acmi_state(state, header, at.sample == 0);
         for (; bookmark != header.bookmarks.end() && bookmark->time_s <= state.time_s + 1e-9; ++bookmark) {
             text += fmt::format("0,Event=Bookmark|1|{}\n", acmi_text(bookmark->label));
         }

@@ -5,15 +5,28 @@
 #include "sim/base/earth_frame.h"
 #include "sim/trajectory.h"
 
+#include <span>
 #include <string>
 #include <vector>
 
 namespace octant::flightpaths {
 
+/// Another aircraft of a flight, on its clock.
+struct WrittenTrack {
+    /// Not null.
+    const sim::Trajectory* trajectory = nullptr;
+    /// Its type; null if unknown.
+    const sim::AircraftKind* kind = nullptr;
+    /// Differs from aircraft to aircraft.
+    std::string name;
+};
+
 /// A flight as comma-separated text with the columns t_s, north_m, east_m, alt_m, roll_deg, pitch_deg, yaw_deg,
-/// tas_mps, n_g, v_north_mps, v_east_mps, v_up_mps. read_recorded_track gives the same states back within 1e-3 (m, m/s,
-/// rad, g).
-std::string track_csv(const sim::Trajectory& trajectory);
+/// tas_mps, n_g, v_north_mps, v_east_mps, v_up_mps; with other aircraft one more, aircraft, by whose names the rows of
+/// all, in order of time, are told apart. parse_track_recording gives the same states back within 1e-3 (m, m/s, rad,
+/// g).
+std::string track_csv(
+    const sim::Trajectory& trajectory, const std::string& name = {}, std::span<const WrittenTrack> others = {});
 
 /// The line of column names, and the line of a state.
 std::string track_csv_names();
@@ -35,10 +48,13 @@ struct AcmiHeader {
     /// Position of the axes of the flight on the earth; null: at 0 N, 0 E.
     const EarthFrame* frame = nullptr;
     std::vector<LegStart> bookmarks;
+    /// Written as CallSign where it is not empty.
+    std::string call_sign = {};
+    std::vector<WrittenTrack> others = {};
 };
 
-/// A flight as Tacview ACMI 2.2 text with positions and headings on the globe and on the flat local map. The reference
-/// time is fixed, so that the same flight gives the same bytes.
+/// A flight and its other aircraft as Tacview ACMI 2.2 text with positions and headings on the globe and on the flat
+/// local map. The reference time is fixed, so that the same flight gives the same bytes.
 std::string track_acmi(const sim::Trajectory& trajectory, const AcmiHeader& header);
 
 /// The head of the file, and the lines of one state without bookmarks; the first state has more of them.

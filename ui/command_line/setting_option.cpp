@@ -35,8 +35,9 @@ Option option_of(const SettingInfo& info, bool& value) {
 }
 
 Option option_of(const SettingInfo& info, std::vector<std::string>& values) {
-    return with_shown_default(values.front(), list_option(fmt::format("--{}", info.name), std::string(info.form),
-                                                  std::string(info.meaning), Arity::Repeatable, values));
+    return with_shown_default(values.empty() ? std::string() : values.front(),
+        list_option(fmt::format("--{}", info.name), std::string(info.form), std::string(info.meaning),
+            Arity::Repeatable, values));
 }
 
 /// Settings that are keys of one option.

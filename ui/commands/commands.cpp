@@ -29,8 +29,8 @@ Program octant_program() {
                   "Every option with its unit and default, and examples: octant COMMAND --help.\n"
                   "All of them: octant --help-all.",
         .commands = {fly_command(), view_command(), listen_command(), report_command(), compare_command(),
-            pack_command(), sweep_command(), dataset_command(), terrain_command(), model_command(), draw_order_command(),
-            simplify_command(), refine_command(), mesh_error_command(),
+            pack_command(), sweep_command(), dataset_command(), terrain_command(), track_command(), model_command(),
+            draw_order_command(), simplify_command(), refine_command(), mesh_error_command(),
             Command{.name = "study",
                 .summary = "Repeats the experiment of a paper and prints its results next to ours (octant-study)",
                 .program = {"octant-study"}},

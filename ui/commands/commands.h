@@ -24,6 +24,7 @@ command_line::Command report_command();
 command_line::Command simplify_command();
 command_line::Command sweep_command();
 command_line::Command terrain_command();
+command_line::Command track_command();
 command_line::Command view_command();
 
 /// Adds the option --window of view and listen, with `more` keys at its end.

@@ -14,15 +14,18 @@
 #include "ui/report/run_file.h"
 #include "ui/settings/settings_file.h"
 #include "ui/world/input_files.h"
+#include "ui/world/track_facts.h"
 #include "visuals/groundfile/ground_file.h"
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <fmt/format.h>
+#include <iterator>
 #include <limits>
 #include <list>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <string>
 #include <string_view>
 #include <system_error>
@@ -68,6 +71,55 @@ std::string_view rows_until(std::string_view text, std::size_t begin, double unt
     return text.substr(begin, at - begin);
 }
 
+/// The tracks of all aircraft but the first: recorded ones and those with a path of their own as they are, wingmen
+/// where the first one has a sample.
+struct OtherTracks {
+    std::list<sim::Trajectory> trajectories;
+    std::vector<flightpaths::WrittenTrack> tracks;
+};
+
+/// Up to a time. Not of more than 256 aircraft: the others repeat the first one's path beside it.
+OtherTracks other_tracks(const world::World& world, const sim::Trajectory& leader, double until_s) {
+    constexpr std::size_t most = 256;
+    OtherTracks others;
+    const world::PlacedFlight& flight = world.flight;
+    const world::Formation formation = world::formation_of(world.scene, flight);
+    std::set<std::string> names{flight.name};
+    const std::vector<std::string>& shapes = world.aircraft.inputs.shapes;
+    int wingmen = 0;
+    for (std::size_t i = 1; i < std::min(most, world.scene.aircraft.size()); ++i) {
+        const auto own = flight.other_trajectories.find(i);
+        std::vector<sim::AircraftState> states;
+        if (own == flight.other_trajectories.end()) {
+            // Of a long flight by hand, wingmen would fill the disk.
+            constexpr std::size_t most_samples = 1000000;
+            if (leader.samples().size() * static_cast<std::size_t>(++wingmen) > most_samples) { continue; }
+            for (const sim::AircraftState& state : leader.samples()) {
+                states.push_back(formation.wingman_state(state, wingmen));
+            }
+        } else {
+            const auto samples = own->second.samples();
+            std::ranges::copy_if(samples, std::back_inserter(states),
+                [&](const sim::AircraftState& state) { return state.time_s <= until_s + rounding_s; });
+        }
+        if (states.empty()) { continue; }
+        const auto known = flight.other_names.find(i);
+        std::string name = known == flight.other_names.end() ? fmt::format("aircraft {}", i + 1) : known->second;
+        for (int more = 2; !names.insert(name).second; ++more) {
+            name = fmt::format("{} ({})", known == flight.other_names.end() ? "aircraft" : known->second, more);
+        }
+        others.trajectories.emplace_back(std::move(states));
+        others.tracks.push_back({&others.trajectories.back(),
+            i < shapes.size() ? sim::find_aircraft_kind(shapes[i]) : nullptr, std::move(name)});
+    }
+    return others;
+}
+
+/// The name of the first of several aircraft.
+std::string leader_name(const world::World& world) {
+    return world.flight.name.empty() ? "aircraft 1" : world.flight.name;
+}
+
 flightpaths::AcmiHeader acmi_header(const world::World& world, const sim::Trajectory& flight, const EarthFrame* frame) {
     flightpaths::AcmiHeader header;
     header.title = world.flight.title;
@@ -82,12 +134,24 @@ flightpaths::AcmiHeader acmi_header(const world::World& world, const sim::Trajec
     return header;
 }
 
+flightpaths::AcmiHeader acmi_header_of_several(
+    const world::World& world, const sim::Trajectory& flight, const EarthFrame* frame, const OtherTracks& others) {
+    flightpaths::AcmiHeader header = acmi_header(world, flight, frame);
+    if (!others.tracks.empty()) {
+        header.call_sign = leader_name(world);
+        header.others = others.tracks;
+    }
+    return header;
+}
+
 } // namespace
 
 void write_tracks(const std::filesystem::path& folder, const world::World& world, const sim::Trajectory& flight,
     const EarthFrame* frame) {
-    write_file(folder / "track.csv", flightpaths::track_csv(flight));
-    write_file(folder / "track.acmi", flightpaths::track_acmi(flight, acmi_header(world, flight, frame)));
+    const OtherTracks others = other_tracks(world, flight, flight.end_s());
+    write_file(folder / "track.csv", flightpaths::track_csv(flight, leader_name(world), others.tracks));
+    write_file(
+        folder / "track.acmi", flightpaths::track_acmi(flight, acmi_header_of_several(world, flight, frame, others)));
 }
 
 /// The tracks of a flight while it is flown, in track.csv and track.acmi. Each is given only what has been flown, and
@@ -127,9 +191,10 @@ class PathTracks final : public TrackFiles {
 public:
     PathTracks(const std::filesystem::path& folder, const world::World& world) : folder_(folder) {
         const sim::Trajectory& path = world.flight.trajectory;
-        tracks_.emplace_back(folder / "track.csv", flightpaths::track_csv(path));
-        tracks_.emplace_back(
-            folder / "track.acmi", flightpaths::track_acmi(path, acmi_header(world, path, world.ground.frame.get())));
+        const OtherTracks others = other_tracks(world, path, std::numeric_limits<double>::infinity());
+        tracks_.emplace_back(folder / "track.csv", flightpaths::track_csv(path, leader_name(world), others.tracks));
+        tracks_.emplace_back(folder / "track.acmi",
+            flightpaths::track_acmi(path, acmi_header_of_several(world, path, world.ground.frame.get(), others)));
         append_until(
             -std::numeric_limits<double>::infinity()); // the heads: a kill before the first picture leaves them
         flush();
@@ -213,6 +278,15 @@ std::string adaptation_text(const StressSettings& stress) {
         100.0 * stress.max_rise, stress.filter_s, stress.max_counted_stress);
 }
 
+/// The map and heights of a recorded track; none where the library that draws them is missing.
+void write_track_picture(const std::filesystem::path& folder, const world::World& world) {
+    if (!world.flight.recording) { return; }
+    try {
+        report::write_png(folder / report::track_picture_name,
+            report::track_picture(world::track_curves(*world.flight.recording)).view());
+    } catch (const Error&) { return; } // the report goes without it
+}
+
 } // namespace
 
 report::PixelView pixel_view_of(const visuals::scene::Picture& picture) {
@@ -244,6 +318,10 @@ report::RunInfo run_info(
         info.facts.emplace_back("adaptation", adaptation_text(stress_settings(settings, session.rate_hz())));
     }
     for (const flightpaths::LegStart& leg : flight.legs) { info.legs.push_back({leg.label, leg.time_s}); }
+    if (flight.recording) {
+        const world::NamedTexts facts = world::track_facts(*flight.recording, flight.inferences);
+        info.facts.insert(info.facts.end(), facts.begin(), facts.end());
+    }
     info.notes = session.world().notes;
     info.inputs = world::input_hashes(settings);
     info.files = world::files_to_copy(settings, session.world().aircraft.order_files);
@@ -297,6 +375,7 @@ FlightRecorder::FlightRecorder(
             tracks_ = std::make_unique<LiveTracks>(*options.folder, session.world());
         } else {
             tracks_ = std::make_unique<PathTracks>(*options.folder, session.world());
+            write_track_picture(*options.folder, session.world());
         }
     }
 }

@@ -12,7 +12,9 @@
 #include <cairo-svg.h>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <cstdlib>
+#include <cstring>
 #include <fmt/format.h>
 #include <limits>
 #include <memory>
@@ -38,6 +40,8 @@ OCTANT_CAIRO(cairo_font_options_destroy);
 OCTANT_CAIRO(cairo_font_options_set_hint_metrics);
 OCTANT_CAIRO(cairo_font_options_set_hint_style);
 OCTANT_CAIRO(cairo_image_surface_create);
+OCTANT_CAIRO(cairo_image_surface_get_data);
+OCTANT_CAIRO(cairo_image_surface_get_stride);
 OCTANT_CAIRO(cairo_line_to);
 OCTANT_CAIRO(cairo_move_to);
 OCTANT_CAIRO(cairo_new_path);
@@ -61,6 +65,8 @@ OCTANT_CAIRO(cairo_status_to_string);
 OCTANT_CAIRO(cairo_stroke);
 OCTANT_CAIRO(cairo_surface_destroy);
 OCTANT_CAIRO(cairo_surface_finish);
+OCTANT_CAIRO(cairo_surface_flush);
+OCTANT_CAIRO(cairo_surface_set_device_scale);
 OCTANT_CAIRO(cairo_surface_status);
 OCTANT_CAIRO(cairo_svg_surface_create_for_stream);
 OCTANT_CAIRO(cairo_text_extents);
@@ -627,6 +633,36 @@ std::string figure_pdf(const Plot& plot, FigureSize size) {
         cairo_pdf_surface_set_metadata(surface, CAIRO_PDF_METADATA_CREATE_DATE, nullptr);
         return surface;
     });
+}
+
+Picture figure_picture(const Plot& plot, FigureSize size, double px_per_mm) {
+    const FigureLayout layout = layout_of(plot, size);
+    const double scale = px_per_mm / points_per_mm;
+    Picture picture{static_cast<int>(std::lround(layout.width * scale)),
+        static_cast<int>(std::lround(layout.height * scale)), 3, {}};
+    const SurfacePointer surface(cairo_image_surface_create(CAIRO_FORMAT_RGB24, picture.width_px, picture.height_px));
+    check_cairo(cairo_surface_status(surface.get()));
+    cairo_surface_set_device_scale(surface.get(), scale, scale);
+    FigurePainter(plot, layout, surface.get()).draw();
+    cairo_surface_flush(surface.get());
+    const auto* const data = cairo_image_surface_get_data(surface.get());
+    const auto stride = static_cast<std::size_t>(cairo_image_surface_get_stride(surface.get()));
+    constexpr std::size_t bytes_a_pixel = 4;
+    for (std::size_t y = 0; y < static_cast<std::size_t>(picture.height_px); ++y) {
+        for (std::size_t x = 0; x < static_cast<std::size_t>(picture.width_px); ++x) {
+            std::uint32_t pixel = 0; // red in its third byte, in the order of the processor
+            std::memcpy(&pixel, data + y * stride + bytes_a_pixel * x, sizeof(pixel));
+            for (const unsigned shift : {16U, 8U, 0U}) {
+                picture.bytes.push_back(static_cast<std::byte>(pixel >> shift & 0xFFU));
+            }
+        }
+    }
+    return picture;
+}
+
+double shape_of_axes(const Plot& plot, FigureSize size) {
+    const FigureLayout layout = layout_of(plot, size);
+    return (layout.x.end - layout.x.begin) / (layout.y.begin - layout.y.end);
 }
 
 } // namespace octant::ui::report

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "ui/report/plots.h"
+#include "ui/report/png_file.h"
 
 #include <string>
 
@@ -21,5 +22,11 @@ std::string figure_svg(const Plot& plot, FigureSize size = {});
 
 /// The same as a PDF file of one page, its fonts embedded, without a date.
 std::string figure_pdf(const Plot& plot, FigureSize size = {});
+
+/// The same as a picture of RGB pixels.
+Picture figure_picture(const Plot& plot, FigureSize size, double px_per_mm);
+
+/// Width over height of what the axes of such a figure enclose.
+double shape_of_axes(const Plot& plot, FigureSize size);
 
 } // namespace octant::ui::report

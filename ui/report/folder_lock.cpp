@@ -3,6 +3,7 @@
 #include "sim/base/error.h"
 #include "sim/base/output_file.h"
 #include "ui/report/kernel_counters.h"
+#include "ui/report/track_picture.h"
 
 #include <algorithm>
 #include <array>
@@ -19,8 +20,9 @@
 namespace octant::ui::report {
 
 bool is_recording_name(std::string_view name) {
-    constexpr std::array<std::string_view, 12> names{lock_name, "inputs", "run.json", "frames.csv", "mangohud.csv",
-        "trace.json", "track.acmi", "track.csv", "flight.csv", counters_name, "packets.bin", "report.html"};
+    constexpr std::array<std::string_view, 13> names{lock_name, "inputs", "run.json", "frames.csv", "mangohud.csv",
+        "trace.json", "track.acmi", "track.csv", track_picture_name, "flight.csv", counters_name, "packets.bin",
+        "report.html"};
     const bool is_picture = (name.starts_with("picture-") || name.starts_with("slow-")) && name.ends_with(".png");
     return is_unfinished(name) || is_picture || std::find(names.begin(), names.end(), name) != names.end();
 }

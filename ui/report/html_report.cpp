@@ -702,12 +702,29 @@ NamedValues common_rows(Recordings recordings, NamedValues RunFile::*rows) {
     return common;
 }
 
+/// The picture and the facts of a recorded track; empty for a flight that follows none.
+std::string recorded_track(const LoadedRecording& recording) {
+    const fs::path picture = recording.folder.path / track_picture_name;
+    if (!is_file(picture)) { return {}; }
+    constexpr int widest_px = 1200;
+    std::string html = "<div class=\"sheet\">\n" + picture_html(picture, widest_px, "map and heights") + "</div>\n";
+    ResultTable table;
+    for (const auto& [name, value] : recording.run.facts) {
+        if (name.starts_with("track") || name == "recorded track") {
+            table.add({{"", name}, styled({"", value}, "code")});
+        }
+    }
+    if (!table.rows.empty()) { html += html_of(table); }
+    return heading_html("Recorded track") + card_html(html);
+}
+
 std::string page_of_one(const LoadedRecording& recording, const ReportPageOptions& options) {
     std::string html = page_head(title_of(recording), "Octant flight report");
     for (const ResultTable& table : options.first_tables) { html += card_html(html_of(table)); }
     const Recordings one(&recording, 1);
-    return html + overview(recording) + plots_of_one(recording) + pictures(one, labels_of(one)) +
-           statistics_table(recording) + slowest_frames(recording) + values_table("Results", result_rows(recording)) +
+    return html + overview(recording) + plots_of_one(recording) + recorded_track(recording) +
+           pictures(one, labels_of(one)) + statistics_table(recording) + slowest_frames(recording) +
+           values_table("Results", result_rows(recording)) +
            values_table("Settings", common_rows(one, &RunFile::settings)) +
            values_table("Program and machine", common_rows(one, &RunFile::machine)) + page_end();
 }

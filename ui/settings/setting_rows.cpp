@@ -24,7 +24,7 @@ void read_words(const FieldInfo& info, const std::vector<std::string>& words, Va
 }
 
 void read_words(const FieldInfo& info, const std::vector<std::string>& words, std::vector<std::string>& value) {
-    if (words.empty() || std::ranges::find(words, "") != words.end()) {
+    if ((words.empty() && !value.empty()) || std::ranges::find(words, "") != words.end()) {
         throw Error(fmt::format("{}: expected names, got an empty one or none", info.name));
     }
     value = words;

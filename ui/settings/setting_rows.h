@@ -105,13 +105,25 @@ using visuals::terrain::TerrainLod;
 /// Which path, aircraft and ground.
 inline constexpr std::tuple path{
     setting<&RunSettings::path, &PathSettings::name>(
-        {"path", "NAME|FILE", "path script (.toml), recorded or logged track (.csv, .igc, .gpx, .acmi)"},
+        {"path", "NAME|FILE",
+            "path script (.toml) or recorded track (.csv, .igc, .gpx, .kml, .acmi, .bin, .tlog, .fdr, ...)"},
         {.group = Path, .change = Flight, .known = base::built_in_paths, .common = true}),
     setting<&RunSettings::path, &PathSettings::aircraft>({"aircraft", "NAME|FILE[=PATH[@Ns]]",
                                                              "a polygon model or a mesh (formats: octant --version); "
                                                              "repeat for wingmen; =PATH@Ns: flies its own path, N s "
                                                              "later"},
         {.group = Path, .change = Flight, .known = base::built_in_models, .common = true}),
+    setting<&RunSettings::path, &PathSettings::follow>(
+        {"follow", "NAME",
+            "the aircraft of a recorded track that is followed: call sign, id, name or pilot [the pilot's own, else "
+            "the one recorded longest]"},
+        {.group = Path, .change = Flight}),
+    setting<&RunSettings::path, &PathSettings::tracks>(
+        {"track", "FILE", "another recorded track, whose aircraft fly on the first one's clock (UTC); repeat for more"},
+        {.group = Path, .change = Flight}),
+    setting<&RunSettings::path, &PathSettings::track_offset_s>(
+        {"offset", "SECONDS", "how much later than recorded the aircraft of --track fly", -1e7, 1e7},
+        {.group = Path, .change = Flight}),
     setting<&RunSettings::path, &PathSettings::axes>(
         {"axes", "X,Y,Z|auto",
             "directions of the axes of aircraft files, such as right,up,back; auto: as the format defines them (AC3D, "

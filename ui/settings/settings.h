@@ -41,6 +41,13 @@ struct PathSettings {
     std::string name = "straight";
     /// Names or files, at least one where a path is flown. The first aircraft flies the path, the others beside it.
     std::vector<std::string> aircraft = {"f15"};
+    /// The aircraft of a recorded track that becomes the first one, by call sign, id, name or pilot; without it the
+    /// recording's pilot, else the one recorded longest.
+    std::optional<std::string> follow;
+    /// Files of further recorded tracks, whose aircraft fly on the first one's clock (UTC).
+    std::vector<std::string> tracks;
+    /// How much later than recorded the aircraft of `tracks` fly.
+    double track_offset_s = 0.0;
     /// Directions of the axes of aircraft files, or "auto": by their formats, else by their shapes.
     std::string axes = "auto";
     std::string terrain = "hills";

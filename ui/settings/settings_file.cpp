@@ -73,7 +73,8 @@ void read_field(const FieldInfo& info, const ordered_json& json, models::heights
 }
 
 void read_field(const FieldInfo& info, const ordered_json& json, std::vector<std::string>& value) {
-    const bool names = json.is_array() && !json.empty() && json.size() <= 4096 &&
+    // A list that is empty by default may be so.
+    const bool names = json.is_array() && (value.empty() || !json.empty()) && json.size() <= 4096 &&
                        std::all_of(json.begin(), json.end(), [](const ordered_json& item) {
                            return item.is_string() && !item.get<std::string>().empty();
                        });

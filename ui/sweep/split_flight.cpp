@@ -12,6 +12,7 @@
 #include "ui/report/run_file.h"
 #include "ui/report/slow_pictures.h"
 #include "ui/report/statistics.h"
+#include "ui/report/track_picture.h"
 #include "ui/report/video_pipe.h"
 #include "ui/settings/settings_check.h"
 #include "ui/settings/settings_file.h"
@@ -248,6 +249,9 @@ void merge_parts(const SweepRun& whole, const fs::path& folder, const std::vecto
     }
     for (const char* track : {"track.csv", "track.acmi"}) { copy_into(parts.back().folder / track, folder / track); }
     std::error_code ignored;
+    if (fs::exists(parts.back().folder / report::track_picture_name, ignored)) {
+        copy_into(parts.back().folder / report::track_picture_name, folder / report::track_picture_name);
+    }
     if (fs::is_directory(parts.front().folder / "inputs", ignored)) {
         copy_into(parts.front().folder / "inputs", folder / "inputs");
     }

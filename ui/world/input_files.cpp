@@ -277,6 +277,7 @@ settings::RunSettings with_absolute_paths(settings::RunSettings settings) {
         if (flown.path) { make_path_absolute(*flown.path, flown.shape); }
         name = settings::text_of(flown);
     }
+    for (std::string& track : settings.path.tracks) { track = absolute(track); }
     if (!settings::is_built_in_ground(settings.path.terrain) &&
         (is_file(settings.path.terrain) || is_folder_or_pattern(settings.path.terrain))) {
         settings.path.terrain = absolute(settings.path.terrain);
@@ -301,6 +302,7 @@ std::vector<InputFile> input_files(std::span<const settings::RunSettings> runs) 
             found.add_model(base::aircraft_file(flown.shape));
             if (flown.path) { found.add(base::path_file(*flown.path, flown.shape)); }
         }
+        for (const std::string& track : settings.path.tracks) { found.add(track); }
         for (const fs::path& file : ground_files(settings.path.terrain)) { found.add_external(file); }
         if (names_system_file(settings)) { found.add(*settings.path.terrain_system); }
         if (settings.air.drape) { found.add_external(*settings.air.drape); }
@@ -316,6 +318,7 @@ void rename_inputs(settings::RunSettings& settings, const std::function<void(std
         if (flown.path) { rename(*flown.path); }
         name = settings::text_of(flown);
     }
+    for (std::string& track : settings.path.tracks) { rename(track); }
     rename(settings.path.terrain);
     if (names_system_file(settings)) { rename(*settings.path.terrain_system); }
     if (settings.air.drape) { rename(*settings.air.drape); }

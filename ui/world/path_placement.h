@@ -8,6 +8,7 @@
 #include "sim/trajectory.h"
 #include "ui/settings/aircraft_entry.h"
 #include "ui/settings/settings.h"
+#include "ui/world/path_loader.h"
 #include "ui/world/scene_ground.h"
 
 #include <glm/vec2.hpp>
@@ -20,30 +21,6 @@
 #include <vector>
 
 namespace octant::ui::world {
-
-/// A path or a recorded track as its file gives it, before it is placed over ground.
-struct LoadedPath {
-    sim::Trajectory trajectory;
-    double rate_hz = 0.0;
-    double min_clearance_m = 0.0;
-    /// Of the aircraft, where its type is known.
-    std::optional<sim::AircraftLimits> limits;
-    /// Geographic origin of a track with positions; its axes are those of the TransverseMercator frame there.
-    std::optional<GeoPosition> origin;
-    std::vector<flightpaths::LegStart> legs;
-    std::vector<std::string> notes;
-    /// The other aircraft of an ACMI recording, in the axes and on the clock of the first one, and the built-in
-    /// aircraft that shows each of them.
-    std::vector<sim::Trajectory> other_trajectories;
-    std::vector<std::string> other_aircraft;
-    bool is_acmi_recording = false;
-};
-
-/// Loads a path by its name or file for an aircraft of this shape. Throws Error.
-LoadedPath load_path(const std::string& path, const std::string& shape, bool lenient);
-
-/// The first aircraft's path: its own, or that of the settings.
-std::string path_of(const settings::RunSettings& settings);
 
 /// The paths of all aircraft of a run over its ground: the first one's, and those of aircraft with a path of their own.
 struct PlacedFlight {
@@ -62,9 +39,16 @@ struct PlacedFlight {
     double lowest_clearance_m = 0.0;
     double lowest_clearance_s = 0.0;
     std::vector<flightpaths::LegStart> legs;
+    /// The first aircraft's name in its recording; empty where there is none.
+    std::string name;
     /// Paths of aircraft with a path of their own, by aircraft number, on the first one's clock, in world axes. Before
     /// the start and after the end of its path such an aircraft is absent.
     std::map<std::size_t, sim::Trajectory> other_trajectories;
+    /// Names of those that come from a recording, by aircraft number.
+    std::map<std::size_t, std::string> other_names;
+    /// What the first aircraft's file holds, and what was made of each of its aircraft; null for a path script.
+    std::shared_ptr<const flightpaths::TrackRecording> recording;
+    std::vector<flightpaths::TrackInference> inferences;
 };
 
 /// Where --place puts the path's origin, metres east and north of the map centre. Two numbers are degrees when they

@@ -190,6 +190,7 @@ void check_wingmen(const World& world) {
 void note_limits(const std::vector<std::string>& shapes, World& world) {
     const bool has_script = !world.flight.legs.empty();
     std::vector<std::string> in_formation_before;
+    std::vector<std::string> messages;
     for (std::size_t i = 0; i < shapes.size(); ++i) {
         const sim::AircraftKind* const kind = sim::find_aircraft_kind(shapes[i]);
         const auto own = world.flight.other_trajectories.find(i);
@@ -203,20 +204,28 @@ void note_limits(const std::vector<std::string>& shapes, World& world) {
             own == world.flight.other_trajectories.end() ? world.flight.trajectory : own->second,
             in_formation && has_script);
         if (!beyond.empty()) {
-            world.notes.push_back(fmt::format(
-                "{}{} is flown beyond its limits: {}", kind->name, in_formation ? " in formation" : "", beyond));
+            const auto name = world.flight.other_names.find(i);
+            messages.push_back(fmt::format("{}{}{} is flown beyond its limits: {}",
+                name == world.flight.other_names.end() ? "" : printable(name->second) + ", a ", kind->name,
+                in_formation ? " in formation" : "", beyond));
         }
     }
+    constexpr std::size_t most = 8;
+    if (messages.size() > most) {
+        const std::size_t more = messages.size() - most;
+        messages.resize(most);
+        messages.push_back(fmt::format("{} more aircraft are flown beyond their limits", more));
+    }
+    add_notes(world.notes, messages);
 }
 
-/// The shapes of all aircraft of a run: those of the settings, then those of its ACMI recording, whose first aircraft
-/// is the first of the settings.
-std::vector<std::string> shapes_of(
-    const settings::RunSettings& settings, const std::vector<std::string>& of_recording) {
+/// The shapes of all aircraft of a run: those of the settings, then those of its recordings, whose first aircraft is
+/// the first of the settings.
+std::vector<std::string> shapes_of(const settings::RunSettings& settings, std::span<const OtherAircraft> of_recording) {
     std::vector<std::string> shapes;
     for (const std::string& aircraft : settings.path.aircraft) { shapes.push_back(settings::aircraft_shape(aircraft)); }
     if (shapes.empty()) { return shapes; }
-    for (std::size_t i = shapes.size(); i <= of_recording.size(); ++i) { shapes.push_back(of_recording[i - 1]); }
+    for (std::size_t i = shapes.size(); i <= of_recording.size(); ++i) { shapes.push_back(of_recording[i - 1].shape); }
     return shapes;
 }
 
@@ -333,12 +342,9 @@ World load_world(const settings::RunSettings& settings, RenderDevice device, con
     check_own_paths(settings, is_live);
     // Paths and names of files are read quickly: errors in them are reported at once.
     std::optional<LoadedPath> path;
-    if (!is_live) {
-        path = load_path(
-            path_of(settings), settings::aircraft_shape(settings.path.aircraft.front()), settings.path.lenient);
-    }
-    const AircraftSources inputs =
-        aircraft_sources(settings, shapes_of(settings, path ? path->other_aircraft : std::vector<std::string>()));
+    if (!is_live) { path = load_paths(settings); }
+    const AircraftSources inputs = aircraft_sources(settings,
+        shapes_of(settings, path ? std::span<const OtherAircraft>(path->others) : std::span<const OtherAircraft>()));
     // At the same time, because finding a painting order takes one thread. Errors of the aircraft come first.
     constexpr bool on_two_threads = true;
     auto [aircraft, loaded] = run_both(

@@ -78,7 +78,11 @@ struct World {
     PlacedFlight flight{.trajectory = sim::Trajectory(std::vector<sim::AircraftState>(1)),
         .title = {},
         .legs = {},
-        .other_trajectories = {}};
+        .name = {},
+        .other_trajectories = {},
+        .other_names = {},
+        .recording = {},
+        .inferences = {}};
     visuals::scene::FixedViewpoints points;
     /// The loaded aircraft; `scene` shares their models.
     LoadedAircraft aircraft;

@@ -99,6 +99,9 @@ TEST_CASE("what commands on models and ground print is as their schemas say") {
     check("draw-order", {"draw-order", "concave", "--export", file("x.order")});
     check("draw-order-check", {"draw-order", "concave", "--check", file("x.order")});
     check("model-info", {"model", "info", "f15", "--picture", file("p.png")});
+    check(
+        "track-info", {"track", "info", std::string(OCTANT_SOURCE_DIR) + "/tests/flightpaths/tracks/opensky-two-b.csv",
+                          "--picture", file("t.png")});
     check("simplify", {"simplify", "torus", file("s.ply"), "--faces", "300", "--method", "fast", "--quiet"});
     check(
         "simplify", {"simplify", "torus", file("s.chain"), "--faces", "300", "--method", "fast", "--chain", "--quiet"});
@@ -147,9 +150,10 @@ TEST_CASE("every command that prints JSON has a schema, and all tables have one 
     const std::map<std::string, std::string> schemas = {{"fly", "fly"}, {"listen", "fly"}, {"report", "report"},
         {"compare", "compare"}, {"pack", "pack"}, {"sweep", "sweep"}, {"dataset", "dataset"},
         {"draw-order", "draw-order"}, {"simplify", "simplify"}, {"mesh-error", "mesh-error"}, {"refine", "refine"},
-        {"model info", "model-info"}, {"terrain info", "terrain-info"}, {"terrain make", "terrain-make"},
-        {"terrain import", "terrain-import"}, {"terrain mesh", "terrain-mesh"}, {"terrain query", "terrain-query"},
-        {"terrain check", "terrain-check"}, {"terrain error", "tables"}, {"bench", "bench"}, {"view", "view-bench"}};
+        {"model info", "model-info"}, {"track info", "track-info"}, {"terrain info", "terrain-info"},
+        {"terrain make", "terrain-make"}, {"terrain import", "terrain-import"}, {"terrain mesh", "terrain-mesh"},
+        {"terrain query", "terrain-query"}, {"terrain check", "terrain-check"}, {"terrain error", "tables"},
+        {"bench", "bench"}, {"view", "view-bench"}};
     for (const std::string& command : commands_with_json(true)) {
         INFO(command);
         const auto found = schemas.find(command);

@@ -1,4 +1,4 @@
-#include "flightpaths/acmi_recording.h"
+#include "flightpaths/track_recording.h"
 #include "sim/base/output_file.h"
 #include "sim/base/text_file.h"
 #include "tests/scratch.h"
@@ -65,7 +65,7 @@ TEST_CASE("a flight that was killed is reported, losing at most its last second"
     const std::string rows = left.at("mangohud.csv").substr(left.at("mangohud.csv").find("fps,"));
     for (const std::string_view line : split_lines(rows)) { CHECK(std::ranges::count(line, ',') == 15); }
     CHECK(left.at("track.acmi").ends_with('\n'));
-    CHECK(flightpaths::parse_acmi(left.at("track.acmi"), folder / "track.acmi").aircraft.size() == 1);
+    CHECK(flightpaths::parse_track_recording(left.at("track.acmi"), folder / "track.acmi").aircraft.size() == 1);
     const auto loaded = ui::report::load_recording(folder);
     REQUIRE(loaded.ended_early);
     REQUIRE(loaded.flight.frames() > 30);

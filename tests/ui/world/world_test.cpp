@@ -244,6 +244,44 @@ TEST_CASE("aircraft of an ACMI recording fly as they flew beside each other, eac
     CHECK(world.flight.lowest_clearance_m == Approx(50.0));
 }
 
+TEST_CASE("aircraft of one log and of another file fly on one clock of UTC, the asked-for one first") {
+    const std::string tracks = std::string(OCTANT_SOURCE_DIR) + "/tests/flightpaths/tracks/";
+    const std::filesystem::path file = tests::scratch_folder() / "later.gpx";
+    // 1538840575, the first second of the log, is 2018-10-06 15:42:55.
+    write_file(file, "<gpx><trk><name>LATE</name><trkseg>"
+                     "<trkpt lat='49.31' lon='-123'><ele>3000</ele><time>2018-10-06T15:43:25Z</time></trkpt>"
+                     "<trkpt lat='49.32' lon='-123'><ele>3000</ele><time>2018-10-06T15:43:45Z</time></trkpt>"
+                     "</trkseg></trk></gpx>");
+    RunSettings settings = over("none");
+    settings.path.name = tracks + "opensky-two-b.csv";
+    settings.path.follow = "two";
+    settings.path.tracks = {file.string()};
+    settings.path.track_offset_s = 2.0;
+    const World world = load_world(settings);
+    const ui::world::PlacedFlight& flight = world.flight;
+    CHECK(flight.name == "TWO");
+    REQUIRE(world.scene.aircraft.size() == 3);
+    REQUIRE(flight.other_trajectories.size() == 2);
+    CHECK(flight.other_names.at(1) == "ONE");
+    CHECK(flight.other_names.at(2) == "LATE");
+    CHECK(flight.other_trajectories.at(2).start_s() == Approx(32.0));
+    // 49.31 N is 556 m north of the first place of TWO, 49.305 N, 123 W.
+    const glm::dvec3 apart_m =
+        flight.other_trajectories.at(2).samples().front().position_m - flight.trajectory.samples().front().position_m;
+    CHECK(apart_m.x == Approx(0.0).margin(1.0));
+    CHECK(apart_m.y == Approx(556.0).margin(2.0));
+
+    settings.path.follow = "nobody";
+    CHECK_THROWS_WITH(load_world(settings), Catch::Contains("--follow: expected one of the 2 aircraft (ONE, TWO)"));
+    settings.path.follow = {};
+    settings.path.tracks = {tracks + "ballistic-zoom.csv"};
+    CHECK_THROWS_WITH(load_world(settings), Catch::Contains("--track: expected recordings with latitudes"));
+    settings.path.name = "turn";
+    settings.path.follow = "ONE";
+    CHECK_THROWS_WITH(
+        load_world(settings), Catch::Contains("--follow: expected a recorded track, got 'f15-turn.toml'"));
+}
+
 TEST_CASE("an ACMI recording that leaves the map is refused with its name") {
     const std::filesystem::path file = tests::scratch_folder() / "far.acmi";
     write_file(file, "FileType=text/acmi/tacview\nFileVersion=2.2\n#0\n1,T=8|47|900\n#900\n1,T=8|49|900\n");
