@@ -529,6 +529,28 @@ int first_other_band(GDALDatasetH dataset) {
     return 1;
 }
 
+/// Whether red, green and blue are the same in all pixels, as many programs write pictures of heights.
+bool is_grey_picture(GDALDatasetH dataset) {
+    if (GDALGetRasterCount(dataset) < 3 || colour_of(dataset, 1) != GCI_RedBand ||
+        colour_of(dataset, 2) != GCI_GreenBand || colour_of(dataset, 3) != GCI_BlueBand) {
+        return false;
+    }
+    const int columns = GDALGetRasterXSize(dataset);
+    std::array<std::vector<double>, 3> lines;
+    for (std::vector<double>& line : lines) { line.resize(static_cast<std::size_t>(columns)); }
+    for (int row = 0; row < GDALGetRasterYSize(dataset); ++row) {
+        for (int channel = 0; channel < 3; ++channel) {
+            std::vector<double>& line = lines[static_cast<std::size_t>(channel)];
+            if (GDALRasterIO(GDALGetRasterBand(dataset, channel + 1), GF_Read, 0, row, columns, 1, line.data(), columns,
+                    1, GDT_Float64, 0, 0) != CE_None) {
+                return false;
+            }
+        }
+        if (lines[0] != lines[1] || lines[0] != lines[2]) { return false; }
+    }
+    return true;
+}
+
 /// The band of heights where no option names one.
 int chosen_band(const path& file, GDALDatasetH dataset, std::vector<MapNote>& notes) {
     const int count = GDALGetRasterCount(dataset);
@@ -537,7 +559,15 @@ int chosen_band(const path& file, GDALDatasetH dataset, std::vector<MapNote>& no
     const GDALColorInterp colour = colour_of(dataset, number);
     const bool is_coloured = GDALGetRasterColorTable(GDALGetRasterBand(dataset, number)) != nullptr ||
                              (colour != GCI_Undefined && colour != GCI_GrayIndex);
-    if (is_coloured) { throw_error_in(file, "expected one band of heights, got a colour picture"); }
+    if (is_coloured && is_grey_picture(dataset)) {
+        notes.push_back({fmt::format(
+            "{}: red, green and blue are the same everywhere: taken for heights", file.filename().string())});
+        return number;
+    }
+    if (is_coloured) {
+        throw_error_in(
+            file, "expected one band of heights, got a colour picture: --band N takes one of its bands for heights");
+    }
     const bool has_alpha = count > 1 && colour_of(dataset, count) == GCI_AlphaBand;
     const int others = count - 1 - (has_alpha ? 1 : 0);
     if (named.empty() && others >= 2 && is_bytes(dataset)) {

@@ -106,6 +106,17 @@ echo "python3-octant: scripts and notebooks run"
 cp "$library_package" "$root/root/liboctant-dev.deb"
 inside apt-get install -y -qq --no-install-recommends /root/liboctant-dev.deb >>"$scratch/apt.log" 2>&1 ||
   fail "liboctant-dev is not installed: $(tail -n 5 "$scratch/apt.log")"
+inside apt-get install -y -qq --no-install-recommends g++ cmake make pkg-config >>"$scratch/apt.log" 2>&1 ||
+  fail "g++, cmake and pkg-config are not installed: $(tail -n 5 "$scratch/apt.log")"
+cp -r "$(dirname "$0")/../ui/library/consumer" "$root/root/consumer"
+inside sh -c 'cd /root/consumer && cmake -S . -B built && cmake --build built &&
+  g++ -std=c++20 main.cpp $(pkg-config --cflags --libs octant) -o by-pkg-config' >"$scratch/cpp.log" 2>&1 ||
+  fail "a program with the library is not built: $(tail -n 5 "$scratch/cpp.log")"
+for program in built/app by-pkg-config; do
+  inside /root/consumer/$program | grep -q "no-such-map.tif: expected a file" || fail "the program $program with the library"
+done
+rm -r "$root/root/consumer"
+echo "liboctant-dev: programs by find_package and by pkg-config run"
 inside apt-get purge -y -qq liboctant-dev >>"$scratch/apt.log" 2>&1 || fail "liboctant-dev is not removed"
 
 # The window, on a display of ours.

@@ -40,33 +40,6 @@ Option option_of(const SettingInfo& info, std::vector<std::string>& values) {
             Arity::Repeatable, values));
 }
 
-/// Settings that are keys of one option.
-struct SettingFamily {
-    std::string_view name;
-    std::string_view form;
-    std::string_view meaning;
-    settings::SettingGroup group;
-    std::vector<std::pair<std::string_view, std::string_view>> keys; ///< key and name of the setting
-};
-
-const std::vector<SettingFamily>& setting_families() {
-    using settings::SettingGroup;
-    static const std::vector<SettingFamily> families{
-        {"--show", "[no-]KEY,...", "what the picture shows:", SettingGroup::View,
-            {{"head-up-display", "head-up-display"}, {"path-ribbon", "path-ribbon"}, {"shadows", "shadows"},
-                {"relief-shadows", "relief-shadows"}, {"roads", "roads"}, {"airfield", "airfield"},
-                {"mesh", "show-mesh"}, {"model", "show-model"}}},
-        {"--paper-shading", "KEY=VALUE,...", "shading rule of the paper:", SettingGroup::Shading,
-            {{"near", "shading-near"}, {"far", "shading-far"}, {"device-ratio", "device-ratio"}}},
-        {"--terrain-mesh", "[no-]KEY,...", "properties of the terrain mesh:", SettingGroup::Ground,
-            {{"geomorphs", "geomorphs"}, {"ahead", "mesh-ahead"}, {"curvature", "earth-curvature"}}},
-        {"--haze", "KEY=VALUE,...", "haze, besides --visibility:", SettingGroup::Air,
-            {{"height", "haze-height"}, {"colour", "background"}}},
-        {"--ground-look", "KEY=VALUE,...", "appearance of the ground:", SettingGroup::Air,
-            {{"palette", "palette"}, {"shading", "ground-shading"}, {"water-level", "water-level"}}}};
-    return families;
-}
-
 /// Settings that the program sets itself for others of its processes, or that only limit internal work.
 constexpr std::array<std::string_view, 3> internal_settings{"part", "order-seconds", "raster-threads"};
 
@@ -83,12 +56,12 @@ void record_given_options(std::span<Option> options, std::vector<std::string>& g
 
 /// Puts options that belong to a family into it.
 void join_families(std::vector<Option>& table, std::vector<Option> options) {
-    std::vector<std::vector<FamilyKey>> members(setting_families().size());
+    std::vector<std::vector<FamilyKey>> members(settings::setting_families().size());
     for (Option& option : options) {
         const std::string name = option.name.substr(0, option.name.find(','));
         bool has_family = false;
         for (std::size_t i = 0; i < members.size(); ++i) {
-            for (const auto& [key, setting] : setting_families()[i].keys) {
+            for (const auto& [key, setting] : settings::setting_families()[i].keys) {
                 if (name != fmt::format("--{}", setting)) { continue; }
                 members[i].push_back({std::string(key), option});
                 has_family = true;
@@ -98,7 +71,7 @@ void join_families(std::vector<Option>& table, std::vector<Option> options) {
     }
     for (std::size_t i = 0; i < members.size(); ++i) {
         if (members[i].empty()) { continue; }
-        const SettingFamily& family = setting_families()[i];
+        const settings::SettingFamily& family = settings::setting_families()[i];
         add_family(table,
             {.name = std::string(family.name),
                 .form = std::string(family.form),

@@ -138,6 +138,11 @@ void make_dataset(const DatasetOptions& options) {
                                                     "values: {} samples",
                                             made.drawn_again));
     }
+    if (2 * made.empty_pictures > made.pictures) {
+        base::print_note(options.quiet, fmt::format("note: {} of {} pictures show no pixel of an aircraft: --cameras "
+                                                    "FILE.toml says where cameras are",
+                                            made.empty_pictures, made.pictures));
+    }
     const bool is_whole = !made.was_stopped && folder.finish();
     print_result(options, made, done_before, is_whole, seconds, set.cameras.size());
 }

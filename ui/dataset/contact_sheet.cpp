@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 #include <optional>
 #include <string_view>
+#include <vector>
 
 namespace octant::ui::dataset {
 
@@ -19,7 +20,7 @@ namespace fs = std::filesystem;
 
 constexpr int columns = 6;
 constexpr int cell_width_px = 160;
-constexpr int cell_height_px = 120;
+constexpr int most_cell_height_px = 120;
 constexpr int gap_px = 4;
 
 std::size_t index(int x, int y, int width) {
@@ -57,10 +58,14 @@ report::Picture read_picture(const fs::path& file) {
     return extension_of(file) == ".npz" ? picture_from_npz(file) : report::read_png(file);
 }
 
-/// Draws a picture into a cell, as large as it fits, each pixel the mean of those that it stands for.
-void draw(const report::Picture& picture, int left, int top, report::Picture& sheet) {
-    const int width = std::max(1, std::min(cell_width_px, picture.width_px * cell_height_px / picture.height_px));
-    const int height = std::max(1, std::min(cell_height_px, picture.height_px * cell_width_px / picture.width_px));
+int height_in_cell(const report::Picture& picture) {
+    return std::max(1, std::min(most_cell_height_px, picture.height_px * cell_width_px / picture.width_px));
+}
+
+/// Draws a picture into a cell of that height, as large as it fits, each pixel the mean of those that it stands for.
+void draw(const report::Picture& picture, int left, int top, int cell_height_px, report::Picture& sheet) {
+    const int height = height_in_cell(picture);
+    const int width = std::max(1, std::min(cell_width_px, picture.width_px * most_cell_height_px / picture.height_px));
     const auto channels = static_cast<std::size_t>(picture.channels);
     for (int y = 0; y < height; ++y) {
         for (int x = 0; x < width; ++x) {
@@ -91,11 +96,17 @@ std::string contact_sheet_png(std::span<const fs::path> files) {
     const int count = static_cast<int>(std::min(files.size(), contact_sheet_pictures));
     const int across = std::max(1, std::min(count, columns));
     const int down = std::max(1, (count + columns - 1) / columns);
+    std::vector<report::Picture> pictures;
+    int cell_height_px = 1;
+    for (const fs::path& file : files.first(static_cast<std::size_t>(count))) {
+        pictures.push_back(read_picture(file));
+        cell_height_px = std::max(cell_height_px, height_in_cell(pictures.back()));
+    }
     report::Picture sheet{across * (cell_width_px + gap_px) + gap_px, down * (cell_height_px + gap_px) + gap_px, 3, {}};
     sheet.bytes.resize(index(0, sheet.height_px, sheet.width_px), std::byte{255});
     for (int i = 0; i < count; ++i) {
-        draw(read_picture(files[static_cast<std::size_t>(i)]), gap_px + i % columns * (cell_width_px + gap_px),
-            gap_px + i / columns * (cell_height_px + gap_px), sheet);
+        draw(pictures[static_cast<std::size_t>(i)], gap_px + i % columns * (cell_width_px + gap_px),
+            gap_px + i / columns * (cell_height_px + gap_px), cell_height_px, sheet);
     }
     return report::png_bytes(sheet.view(), report::PngEffort::Small);
 }

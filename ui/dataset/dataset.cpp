@@ -51,7 +51,7 @@ std::pair<std::string, std::string> order_key(const PlannedSample& sample) {
     const settings::RunSettings defaults;
     for (const auto& [name, value] : sample.varied) {
         bool is_loaded = false;
-        settings::visit_settings(defaults, [&](const settings::SettingInfo& info, const auto&) {
+        settings::visit_settings(defaults, [&, &name = name](const settings::SettingInfo& info, const auto&) {
             is_loaded = is_loaded || (info.name == name && info.change >= settings::SettingsChange::World);
         });
         (is_loaded ? key.first : key.second) += name + '=' + value + ';';
@@ -207,9 +207,8 @@ private:
         for (std::size_t i = 0; i < dataset_.cameras.size(); ++i) {
             const CameraRig& rig = dataset_.cameras[i];
             if (static_cast<std::size_t>(rig.aircraft) > now.size()) {
-                throw Error(
-                    fmt::format("camera {}: expected at most {}, as many as there are aircraft, got aircraft {}",
-                        rig.name, now.size(), rig.aircraft));
+                throw Error(fmt::format("{}: camera {}: aircraft: expected at most {}, as many as there are, got {}",
+                    dataset_.cameras_file.string(), rig.name, now.size(), rig.aircraft));
             }
             SamplePicture picture;
             picture.number = planned.index * dataset_.cameras.size() + i;
@@ -286,9 +285,16 @@ Made make_samples(const Dataset& dataset, const DatasetFolder& folder, std::span
     const Sample first_sample = first.make(first_index);
     folder.prepare();
     std::atomic<std::uint64_t> made = 0;
+    std::atomic<std::uint64_t> pictures = 0;
+    std::atomic<std::uint64_t> empty_pictures = 0;
     const auto keep = [&](const Sample& sample) {
         folder.write(sample);
         ++made;
+        for (const SamplePicture& picture : sample.pictures) {
+            const auto is_seen = [](const SampleObject& each) { return each.box.pixels > 0; };
+            pictures += dataset.outputs.boxes && !sample.states.empty() ? 1 : 0;
+            empty_pictures += std::ranges::none_of(picture.objects, is_seen) ? 1 : 0;
+        }
         if (options.on_sample) { options.on_sample(); }
     };
     keep(first_sample);
@@ -302,6 +308,8 @@ Made make_samples(const Dataset& dataset, const DatasetFolder& folder, std::span
     });
     Made result;
     result.samples = made;
+    result.pictures = pictures;
+    result.empty_pictures = std::min<std::uint64_t>(empty_pictures, pictures);
     result.worlds = first.worlds();
     result.drawn_again = first.drawn_again();
     for (const SampleMaker& each : makers) {

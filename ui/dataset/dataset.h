@@ -28,6 +28,9 @@ struct Made {
     std::uint64_t worlds = 0;  ///< loaded or recoloured for them
     std::uint64_t drawn_again =
         0; ///< samples whose first values made no world, such as a place where the path has none
+    /// Of pictures with boxes: how many there are, and how many show no pixel of any aircraft.
+    std::uint64_t pictures = 0;
+    std::uint64_t empty_pictures = 0;
     bool was_stopped = false;
 };
 

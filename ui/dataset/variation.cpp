@@ -4,6 +4,7 @@
 #include "sim/base/hash.h"
 #include "sim/base/text_file.h"
 #include "ui/base/data_files.h"
+#include "ui/base/spelling.h"
 #include "ui/settings/aircraft_entry.h"
 #include "ui/settings/setting_rows.h"
 
@@ -137,7 +138,12 @@ VariedSetting varied_from(std::string_view item, std::span<const std::string_vie
     if (equals == std::string_view::npos || equals == 0) { refuse("SETTING=LOW:HIGH or SETTING=VALUE|VALUE", item); }
     VariedSetting varied{.name = std::string(item.substr(0, equals)), .text = std::string(item.substr(equals + 1))};
     const std::optional<RangeKind> kind = range_kind_of(varied.name);
-    if (!kind) { refuse("a setting of octant fly", varied.name); }
+    if (!kind) {
+        std::vector<std::string> names;
+        settings::visit_rows([&names](const settings::SettingInfo& row) { names.emplace_back(row.name); });
+        throw Error(fmt::format("--vary: expected a setting of octant fly, got {}{}", in_quotes(varied.name),
+            base::did_you_mean(varied.name, names)));
+    }
     if (std::ranges::find(fixed, varied.name) != fixed.end()) {
         refuse("a setting of the world, not of the camera or the run", varied.name);
     }

@@ -16,6 +16,11 @@
 
 namespace octant {
 
+void Camera::check() const {
+    ui::library::check_camera(*this);
+    ui::library::CameraPictures::is_plain(*this);
+}
+
 std::optional<std::pair<double, double>> Camera::project(const Vec3& point_m) const {
     const glm::dvec3 point = ui::library::checked_vector("project: point_m", point_m);
     const auto at_px = ui::library::lens_model(*this).project(point);
@@ -204,8 +209,12 @@ camera::LensModel lens_model(const Camera& from) {
         most = 4;
     }
     if (from.coefficients.size() > most) {
-        throw Error(fmt::format(
-            "camera: expected at most {} coefficients of the distortion, got {}", most, from.coefficients.size()));
+        throw Error(fmt::format("camera: coefficients: expected at most {}, as many as the distortion has, got {}",
+            most, from.coefficients.size()));
+    }
+    for (const double coefficient : from.coefficients) {
+        constexpr double greatest = 1e6;
+        check_between("coefficients", coefficient, -greatest, greatest);
     }
     std::ranges::copy(from.coefficients, lens.coefficients.begin());
     return lens;
@@ -240,14 +249,14 @@ struct CameraPictures::Moment {
 struct CameraPictures::Colours {
     std::vector<std::uint16_t> colours;
     std::vector<float> sums;
-    std::vector<std::uint16_t> whole; ///< a picture of which some rows are taken
+    std::vector<std::uint16_t> whole; ///< a face's picture, of which some rows or pixels are taken
 };
 
 CameraPictures::CameraPictures(const Camera& from)
     : lens_(lens_model(from), from.samples), shutter_(shutter_of(from)), sensor_(sensor_of(from)),
       sums_light_(
           sensor_.exposure != 1.0 || sensor_.noise != 0.0 || (shutter_.open_s > 0.0 && shutter_.blur_frames > 1)),
-      draws_deep_(lens_.is_pinhole() && (from.bits == 16 || sums_light_)) {}
+      draws_deep_(from.bits == 16 || sums_light_) {}
 
 bool CameraPictures::is_plain(const Camera& from) {
     lens_model(from);
@@ -296,15 +305,13 @@ void CameraPictures::draw_colours(
         lens_.resample(face, lane.draw(), rows.first_row, rows.end_row, colours.colours);
         return;
     }
-    if (rows.end_row - rows.first_row == face.size_px.y) {
+    if (lens_.is_pinhole() && rows.end_row - rows.first_row == face.size_px.y) {
         lane.draw_deep(colours.colours);
         return;
     }
-    colours.whole.resize(colours.colours.size());
+    colours.whole.resize(3 * static_cast<std::size_t>(face.size_px.x) * static_cast<std::size_t>(face.size_px.y));
     lane.draw_deep(colours.whole);
-    const std::ptrdiff_t row_values = std::ptrdiff_t{3} * face.size_px.x;
-    std::copy(colours.whole.begin() + row_values * rows.first_row, colours.whole.begin() + row_values * rows.end_row,
-        colours.colours.begin() + row_values * rows.first_row);
+    lens_.resample(face, colours.whole, rows.first_row, rows.end_row, colours.colours);
 }
 
 void CameraPictures::draw_truth(
@@ -356,14 +363,19 @@ void CameraPictures::draw(DrawingLane& lane, const CameraPicture& picture, const
     if (wants_colours) { colours.colours.resize(row_values * static_cast<std::size_t>(size_px.y)); }
     if (wants_colours && sums_light_) { colours.sums.resize(colours.colours.size()); }
     int drawn_frames = 0; // of the first rows
-    for (const camera::Drawing& rows : camera::drawings_of(shutter_, size_px.y, bands_of(lane, picture))) {
+    const int bands = picture.bands > 0 ? picture.bands : bands_of(lane, picture);
+    for (const camera::Drawing& rows : camera::drawings_of(shutter_, size_px.y, bands)) {
         const bool draws_colours = wants_colours && rows.adds_light;
         const bool draws_truth = rows.is_truth && wants_truth(to);
         if (!draws_colours && !draws_truth) { continue; }
         const Moment moment(picture, rows.time_s);
         for (const camera::Face& face : lens_.faces()) {
             if (!lens_.is_pinhole() && face.pixels_of(rows.first_row, rows.end_row).empty()) { continue; }
-            lane.plan(moment.request(face));
+            if (picture.is_alone) {
+                lane.plan_alone(moment.request(face));
+            } else {
+                lane.plan(moment.request(face));
+            }
             if (draws_colours) {
                 draw_colours(lane, face, rows, colours);
             } else {

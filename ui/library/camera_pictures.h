@@ -27,6 +27,9 @@ struct CameraPicture {
     std::span<const sim::AircraftState> previous_states;
     std::uint64_t noise_seed = 0;
     std::uint64_t noise_index = 0; ///< number of the picture
+    /// Draws the aircraft alone, as DrawingLane::plan_alone().
+    bool is_alone = false;
+    int bands = 0; ///< of a rolling shutter; 0 = as many as bands_of() says
 };
 
 /// Draws pictures of cameras that are more than a pinhole: with distortion, a
@@ -53,6 +56,13 @@ public:
     /// Throws Error for a pose with a velocity or a turn rate that is not finite.
     static void check_motion(const Pose& pose);
 
+    /// Whether all rows are seen at the pose's time, through a lens without distortion: where things lie in the picture
+    /// is then as without shutter and sensor.
+    bool shows_pose_by_pinhole() const { return lens_.is_pinhole() && shutter_.row_time_s == 0.0; }
+
+    /// The bands of a picture's rows.
+    int bands_of(DrawingLane& lane, const CameraPicture& picture) const;
+
     /// Draws a picture into arrays of one picture.
     void draw(DrawingLane& lane, const CameraPicture& picture, const FrameArrays& to) const;
 
@@ -60,7 +70,6 @@ private:
     struct Moment;
     struct Colours;
 
-    int bands_of(DrawingLane& lane, const CameraPicture& picture) const;
     void draw_colours(DrawingLane& lane, const visuals::camera::Face& face, const visuals::camera::Drawing& rows,
         Colours& colours) const;
     void draw_truth(DrawingLane& lane, const visuals::camera::Face& face, const visuals::camera::Drawing& rows,

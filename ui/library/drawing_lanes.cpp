@@ -2,6 +2,7 @@
 
 #include "sim/base/thread_pool.h"
 #include "visuals/landscape/ground.h"
+#include "visuals/planning/fleet.h"
 
 #include <algorithm>
 #include <atomic>
@@ -78,7 +79,14 @@ const scene::FramePlan& DrawingLane::plan(const PictureRequest& request) { retur
 
 const scene::FramePlan& DrawingLane::plan_alone(const PictureRequest& request) {
     if (!alone_planner_) { alone_planner_.emplace(scenes_.alone, scenes_.alone_settings); }
-    return plan_by(*alone_planner_, request);
+    // Sunk as over the ground that is left out: each pixel is then that of the whole picture.
+    sunk_.clear();
+    for (const sim::AircraftState& state : request.states) {
+        sunk_.push_back(planning::sunk(state, request.camera.eye_m, planner_.earth_radius_m()));
+    }
+    PictureRequest alone = request;
+    alone.states = sunk_;
+    return plan_by(*alone_planner_, alone);
 }
 
 const scene::Picture& DrawingLane::draw() {

@@ -113,6 +113,7 @@ private:
     std::optional<visuals::planning::Planner> alone_planner_; ///< made when it is first asked for
     std::unique_ptr<visuals::raster::Renderer> renderer_;
     visuals::scene::Picture picture_;
+    std::vector<sim::AircraftState> sunk_; ///< states of pictures of aircraft alone
     const visuals::scene::FramePlan* plan_ = nullptr;
 };
 

@@ -8,6 +8,7 @@
 #include "sim/trajectory.h"
 #include "ui/flight/flight_recorder.h"
 #include "ui/flight/session.h"
+#include "ui/library/conversions.h"
 #include "ui/library/loaded_world.h"
 #include "ui/report/comparison.h"
 #include "ui/report/frame_record.h"
@@ -30,43 +31,15 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <unistd.h>
 #include <utility>
 #include <vector>
 
 namespace octant {
 
+namespace library = ui::library;
+
 namespace {
-
-State state_of(const sim::AircraftState& state) {
-    const glm::dquat& turn = state.body_to_world;
-    return {.position_m = {state.position_m.x, state.position_m.y, state.position_m.z},
-        .attitude = {turn.w, turn.x, turn.y, turn.z},
-        .is_present = state.is_present,
-        .time_s = state.time_s,
-        .velocity_mps = {state.velocity_mps.x, state.velocity_mps.y, state.velocity_mps.z},
-        .load_factor = state.load_factor};
-}
-
-bool is_finite(const Vec3& vector) {
-    return std::isfinite(vector.x) && std::isfinite(vector.y) && std::isfinite(vector.z);
-}
-
-sim::AircraftState aircraft_state_of(const State& state) {
-    const Quaternion& turn = state.attitude;
-    const glm::dquat attitude(turn.w, turn.x, turn.y, turn.z);
-    const double length = glm::length(attitude);
-    if (!is_finite(state.position_m) || !is_finite(state.velocity_mps) || !std::isfinite(state.time_s) ||
-        !std::isfinite(state.load_factor)) {
-        throw Error("start: expected finite numbers, got others");
-    }
-    if (!(length > 0.0 && std::isfinite(length))) { throw Error("attitude: expected a quaternion, got zero or NaN"); }
-    return {.time_s = state.time_s,
-        .position_m = {state.position_m.x, state.position_m.y, state.position_m.z},
-        .velocity_mps = {state.velocity_mps.x, state.velocity_mps.y, state.velocity_mps.z},
-        .body_to_world = attitude / length,
-        .load_factor = state.load_factor,
-        .is_present = state.is_present};
-}
 
 /// Settings by name, all entries of a name as one list of words.
 ui::settings::RunSettings run_settings(
@@ -118,6 +91,12 @@ struct Flight::Impl {
         next_frame = first;
     }
 
+    bool is_own_process() const { return process == getpid(); }
+
+    void check_process() const {
+        if (!is_own_process()) { throw Error("flight: expected the process that began it, got one forked from it"); }
+    }
+
     void draw() {
         ui::report::FrameRecord record = session.draw(next_frame);
         ++next_frame;
@@ -132,13 +111,14 @@ struct Flight::Impl {
             std::copy_n(picture.rgba.data() + 4 * i, 3, rgb.data() + 3 * i);
         }
         states.clear();
-        for (const sim::AircraftState& state : session.states()) { states.push_back(state_of(state)); }
+        for (const sim::AircraftState& state : session.states()) { states.push_back(library::state_from(state)); }
         if (recorder) { recorder->add(record, session); }
     }
 
     ui::settings::RunSettings settings;
     ui::flight::Session session;
     std::optional<ui::flight::FlightRecorder> recorder;
+    pid_t process = getpid();
     bool is_finished = false;
     int first = 0;
     int next_frame = 0;
@@ -148,12 +128,29 @@ struct Flight::Impl {
     std::vector<State> states;
 };
 
-Flight::Flight(const FlightSettings& settings)
-    : impl_(std::make_unique<Impl>(
-          settings, settings.on_note ? settings.on_note
-                                     : [](std::string_view note) { std::clog << "note: " << note << '\n'; })) {}
+Flight::Flight(const FlightSettings& settings) {
+    const auto on_note = [&](std::string_view note) {
+        const std::string text = ui::settings::with_setting_names(note);
+        if (settings.on_note) {
+            settings.on_note(text);
+        } else {
+            std::clog << "octant: " << text << '\n';
+        }
+    };
+    try {
+        impl_ = std::make_unique<Impl>(settings, on_note);
+    } catch (const Error& fault) {
+        std::string text = ui::settings::with_setting_names(fault.what());
+        if (text.starts_with("--record:")) { text.erase(0, 2); }
+        throw Error(text);
+    }
+}
 
-Flight::~Flight() = default;
+Flight::~Flight() {
+    // A forked child cannot wait for threads that it has not.
+    if (impl_ && !impl_->is_own_process()) { static_cast<void>(impl_.release()); }
+}
+
 Flight::Flight(Flight&&) noexcept = default;
 Flight& Flight::operator=(Flight&&) noexcept = default;
 
@@ -164,12 +161,14 @@ int Flight::width() const { return impl_->settings.view.size_px.x; }
 int Flight::height() const { return impl_->settings.view.size_px.y; }
 
 bool Flight::next() {
+    impl_->check_process();
     if (impl_->is_finished || impl_->next_frame >= impl_->session.frames()) { return false; }
     impl_->draw();
     return true;
 }
 
 void Flight::finish() {
+    impl_->check_process();
     if (impl_->is_finished) { return; }
     impl_->is_finished = true;
     if (!impl_->recorder) { return; }
@@ -214,9 +213,9 @@ std::vector<State> path_states(const World& world, double rate_hz) {
     for (long number = 0;; ++number) {
         const double time_s = path.start_s() + static_cast<double>(number) / rate_hz;
         if (time_s >= path.end_s()) { break; }
-        states.push_back(state_of(path.state_at(time_s)));
+        states.push_back(library::state_from(path.state_at(time_s)));
     }
-    states.push_back(state_of(path.state_at(path.end_s())));
+    states.push_back(library::state_from(path.state_at(path.end_s())));
     return states;
 }
 
@@ -227,7 +226,7 @@ struct PilotedAircraft::Impl {
 };
 
 PilotedAircraft::PilotedAircraft(const std::string& aircraft, const State& start)
-    : impl_(new Impl{sim::make_piloted_flight(sim::aircraft_kind(aircraft), aircraft_state_of(start))}) {}
+    : impl_(new Impl{sim::make_piloted_flight(sim::aircraft_kind(aircraft), library::aircraft_state(start))}) {}
 
 PilotedAircraft::~PilotedAircraft() = default;
 PilotedAircraft::PilotedAircraft(PilotedAircraft&&) noexcept = default;
@@ -239,7 +238,7 @@ void PilotedAircraft::advance(const Controls& controls, int steps) {
     for (int step = 0; step < steps; ++step) { impl_->flight->step(asked); }
 }
 
-State PilotedAircraft::state() const { return state_of(impl_->flight->state()); }
+State PilotedAircraft::state() const { return library::state_from(impl_->flight->state()); }
 
 double PilotedAircraft::trim_throttle() const { return impl_->flight->trim_throttle(); }
 

@@ -23,7 +23,4 @@ const settings::RunSettings& settings_of(const World& world);
 World make_world(const settings::RunSettings& settings, const World* shared = nullptr,
     const std::function<void(std::string_view)>& on_note = nullptr);
 
-/// The settings of a run that these settings of a world name. Throws Error.
-settings::RunSettings run_settings(const WorldSettings& settings);
-
 } // namespace octant::ui::library

@@ -9,10 +9,10 @@
 #include "ui/library/conversions.h"
 #include "ui/library/drawing_lanes.h"
 #include "ui/library/loaded_world.h"
-#include "ui/library/scene_file.h"
 #include "ui/settings/setting_rows.h"
 #include "ui/world/scene_ground.h"
 #include "visuals/scene/detail_pattern.h"
+#include "visuals/scene/truth.h"
 
 #include <algorithm>
 #include <cmath>
@@ -23,6 +23,7 @@
 #include <fmt/format.h>
 #include <functional>
 #include <iostream>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <memory>
@@ -175,7 +176,7 @@ void check_count(std::size_t got, std::size_t aircraft, std::size_t pictures) {
 
 } // namespace
 
-struct [[gnu::visibility("hidden")]] World::Impl {
+struct World::Impl {
     std::shared_ptr<Loaded> loaded;
     States states;
     States previous_states;
@@ -240,7 +241,9 @@ public:
     /// Valid as long as this.
     library::PictureRequest request(std::size_t picture) const {
         library::PictureRequest request{cameras_[picture], size_px_, samples_, states_.of(picture)};
-        if (previous_[picture]) { request.previous.emplace(*previous_[picture], previous_states_.of(picture)); }
+        if (previous_[picture]) {
+            request.previous = planning::PreviousFrame{*previous_[picture], previous_states_.of(picture)};
+        }
         return request;
     }
 
@@ -309,11 +312,85 @@ void write_rgb(const scene::Picture& picture, std::uint8_t* rgb) {
 
 } // namespace
 
-World::World(const WorldSettings& settings)
-    : impl_(Impl::of(load(library::run_settings(settings), nullptr, settings.on_note))) {}
+namespace {
+
+/// Whether a setting is about views, pictures or frames, which a world has not.
+bool is_of_pictures(const ui::settings::SettingInfo& info) {
+    using enum ui::settings::SettingGroup;
+    return info.name != "path-ribbon" && info.name != "start" && (info.group == View || info.group == Time);
+}
+
+void check_world_setting(ui::settings::RunSettings& settings, std::string_view name) {
+    ui::settings::visit_settings(settings, [&](const ui::settings::SettingInfo& info, const auto&) {
+        if (info.name == name && is_of_pictures(info)) {
+            throw Error(fmt::format("{}: expected a setting of a world, got one of views or frames", name));
+        }
+    });
+}
+
+/// The words of the settings by name, in the order of the names' first places.
+std::vector<std::pair<std::string, std::vector<std::string>>> words_by_name(const WorldSettings& settings) {
+    std::vector<std::pair<std::string, std::vector<std::string>>> words;
+    const auto words_of = [&](const std::string& name) {
+        return std::ranges::find(words, name, [](const auto& entry) { return entry.first; });
+    };
+    const auto add = [&](const std::string& name, std::vector<std::string> values) {
+        if (!values.empty()) { words.emplace_back(name, std::move(values)); }
+    };
+    if (settings.terrain != WorldSettings{}.terrain) { add("terrain", {settings.terrain}); }
+    add("aircraft", settings.aircraft);
+    if (settings.sun_elevation_deg) { add("sun-elevation", {ui::settings::text_of(*settings.sun_elevation_deg)}); }
+    if (settings.triangles) { add("triangles", {ui::settings::text_of(*settings.triangles)}); }
+    const std::size_t members = words.size();
+    for (const auto& [name, value] : settings.settings) {
+        const auto known = words_of(name);
+        if (known == words.end()) {
+            words.push_back({name, {value}});
+        } else if (static_cast<std::size_t>(known - words.begin()) < members) {
+            throw Error(fmt::format("{}: expected it once, got it among the settings, too", name));
+        } else {
+            known->second.push_back(value);
+        }
+    }
+    return words;
+}
+
+/// The settings of a run that these settings of a world name. Throws Error.
+ui::settings::RunSettings run_settings(const WorldSettings& settings) {
+    ui::settings::RunSettings run;
+    run.path.name = ui::settings::live_path;
+    run.path.aircraft.clear();
+    for (const auto& [name, words] : words_by_name(settings)) {
+        check_world_setting(run, name);
+        const std::string note = ui::settings::set_by_name(run, name, words);
+        if (!note.empty()) { tell(settings.on_note, note); }
+    }
+    return run;
+}
+
+/// Loads a world. What is said of settings names them as WorldSettings does.
+std::shared_ptr<Loaded> load_by(const WorldSettings& settings, const Loaded* shared) {
+    const auto in_members = [&settings](std::string_view message) {
+        constexpr std::string_view prefix = "sun-elevation:";
+        std::string text = ui::settings::with_setting_names(message);
+        if (settings.sun_elevation_deg && text.starts_with(prefix)) {
+            text.replace(0, prefix.size(), "sun_elevation_deg:");
+        }
+        return text;
+    };
+    WorldSettings telling = settings;
+    telling.on_note = [&](std::string_view note) { tell(settings.on_note, in_members(note)); };
+    try {
+        return load(run_settings(telling), shared, telling.on_note);
+    } catch (const Error& fault) { throw Error(in_members(fault.what())); }
+}
+
+} // namespace
+
+World::World(const WorldSettings& settings) : impl_(Impl::of(load_by(settings, nullptr))) {}
 
 World::World(const WorldSettings& settings, const World& shared)
-    : impl_(Impl::of(load(library::run_settings(settings), shared.impl_->loaded.get(), settings.on_note))) {}
+    : impl_(Impl::of(load_by(settings, shared.impl_->loaded.get()))) {}
 
 World::World(std::shared_ptr<Impl> impl, std::nullptr_t) : impl_(std::move(impl)) {}
 
@@ -347,6 +424,8 @@ std::vector<Vec3> World::random_positions(
                                 "and {}",
             min_above_m, max_above_m));
     }
+    constexpr std::size_t most = 100'000'000;
+    if (count > most) { throw Error(fmt::format("random_positions: expected at most {}, got {}", most, count)); }
     constexpr double inner_share = 0.8;
     const auto [east_m, north_m] = half_extent_m();
     RandomGenerator random(seed * 0x9e3779b97f4a7c15ULL + 0xd1b54a32d192ed03ULL);
@@ -482,24 +561,58 @@ std::vector<std::vector<Box>> World::boxes(
     const Camera& camera, std::span<const Pose> poses, const RenderOptions& options) const {
     const std::shared_ptr<Impl> impl = impl_;
     library::check_camera(camera);
-    if (camera.distortion != Distortion::None) { throw Error("boxes: expected a camera without distortion"); }
     const int threads = thread_count(options.threads);
     const Pictures pictures(camera, poses, options, impl->states, impl->previous_states);
     std::vector<planning::AxisAlignedBox> bounds;
     for (std::size_t i = 0; i < impl->scene().aircraft.size(); ++i) {
         bounds.push_back(impl->scene().model_of(i).hull);
     }
+    const std::shared_ptr<const library::CameraPictures> special = impl->loaded->pictures_of(camera);
+    if (special) { std::ranges::for_each(poses, library::CameraPictures::check_motion); }
     std::vector<std::vector<Box>> boxes(poses.size());
     const auto find = [&](std::size_t picture, library::DrawingLane& lane) {
         library::PictureRequest request = pictures.request(picture);
         request.previous.reset();
-        boxes[picture] = library::BoxFinder(camera, bounds).boxes_in(request, lane);
+        const library::CameraPicture whole = pictures.of_camera(picture, poses[picture], options);
+        boxes[picture] = library::BoxFinder(camera, bounds, special.get()).boxes_in(whole, request, lane);
     };
     if (!impl->loaded->lanes->for_each(poses.size(), threads, options.is_stopped, find)) {
         throw Interrupted("boxes: stopped by the caller");
     }
     return boxes;
 }
+
+namespace {
+
+/// The triangles of a plan of that scene as OBJ in world axes.
+std::string obj_of(const scene::FramePlan& plan, const planning::Scene& drawn, const glm::dvec3& eye_m) {
+    std::vector<scene::ModelBuffers> models;
+    for (const auto& model : drawn.models) { models.push_back(model->buffers); }
+    // By class and object, each group's triangles in the plan's order.
+    std::map<std::pair<int, std::uint32_t>, std::vector<scene::SurfaceTriangle>> groups;
+    scene::for_each_surface_triangle(plan, models, [&](const scene::SurfaceTriangle& triangle) {
+        groups[{static_cast<int>(triangle.surface), triangle.object}].push_back(triangle);
+    });
+    std::string obj = fmt::format(
+        "# Octant, as drawn from {:.6f} {:.6f} {:.6f}; x east, y north, z up, metres\n", eye_m.x, eye_m.y, eye_m.z);
+    std::size_t vertices = 0;
+    for (const auto& [key, triangles] : groups) {
+        const std::string_view surface = name_of(static_cast<SurfaceClass>(key.first));
+        fmt::format_to(std::back_inserter(obj), "g {}\n",
+            key.second == 0 ? std::string(surface) : fmt::format("{}-{}", surface, key.second));
+        for (const scene::SurfaceTriangle& triangle : triangles) {
+            for (const glm::dvec3& corner_m : triangle.corners_m) {
+                const glm::dvec3 at_m = eye_m + corner_m;
+                fmt::format_to(std::back_inserter(obj), "v {:.7f} {:.7f} {:.7f}\n", at_m.x, at_m.y, at_m.z);
+            }
+            vertices += 3;
+            fmt::format_to(std::back_inserter(obj), "f {} {} {}\n", vertices - 2, vertices - 1, vertices);
+        }
+    }
+    return obj;
+}
+
+} // namespace
 
 void World::export_scene(const std::string& path, const Camera& camera, const Pose& pose) const {
     const std::shared_ptr<Impl> impl = impl_;
@@ -509,18 +622,20 @@ void World::export_scene(const std::string& path, const Camera& camera, const Po
     std::string obj;
     impl->loaded->lanes->for_each(1, 1, {}, [&](std::size_t picture, library::DrawingLane& lane) {
         const library::PictureRequest request = pictures.request(picture);
-        obj = library::obj_of(lane.plan(request), impl->scene(), request.camera.eye_m);
+        obj = obj_of(lane.plan(request), impl->scene(), request.camera.eye_m);
     });
     write_file(path, obj);
 }
 
-struct [[gnu::visibility("hidden")]] WorldAccess{
-    static const Loaded & loaded(const World& world){return *world.impl_->loaded;
-} // namespace octant
+#pragma GCC visibility push(hidden)
 
-static World make(std::shared_ptr<Loaded> loaded) { return {World::Impl::of(std::move(loaded)), nullptr}; }
-}
-;
+struct WorldAccess {
+    static const Loaded& loaded(const World& world) { return *world.impl_->loaded; }
+
+    static World make(std::shared_ptr<Loaded> loaded) { return {World::Impl::of(std::move(loaded)), nullptr}; }
+};
+
+#pragma GCC visibility pop
 
 } // namespace octant
 
@@ -533,63 +648,6 @@ const settings::RunSettings& settings_of(const World& world) { return WorldAcces
 World make_world(
     const settings::RunSettings& settings, const World* shared, const std::function<void(std::string_view)>& on_note) {
     return WorldAccess::make(load(settings, shared == nullptr ? nullptr : &WorldAccess::loaded(*shared), on_note));
-}
-
-namespace {
-
-/// Whether a setting is about views, pictures or frames, which a world has not.
-bool is_of_pictures(const settings::SettingInfo& info) {
-    using enum settings::SettingGroup;
-    return info.name != "path-ribbon" && info.name != "start" && (info.group == View || info.group == Time);
-}
-
-void check_world_setting(settings::RunSettings& settings, std::string_view name) {
-    settings::visit_settings(settings, [&](const settings::SettingInfo& info, const auto&) {
-        if (info.name == name && is_of_pictures(info)) {
-            throw Error(fmt::format("{}: expected a setting of a world, got one of views or frames", name));
-        }
-    });
-}
-
-/// The words of the settings by name, in the order of the names' first places.
-std::vector<std::pair<std::string, std::vector<std::string>>> words_by_name(const WorldSettings& settings) {
-    std::vector<std::pair<std::string, std::vector<std::string>>> words;
-    const auto words_of = [&](const std::string& name) {
-        return std::ranges::find(words, name, [](const auto& entry) { return entry.first; });
-    };
-    const auto add = [&](const std::string& name, std::vector<std::string> values) {
-        if (!values.empty()) { words.emplace_back(name, std::move(values)); }
-    };
-    if (settings.terrain != WorldSettings{}.terrain) { add("terrain", {settings.terrain}); }
-    add("aircraft", settings.aircraft);
-    if (settings.sun_elevation_deg) { add("sun-elevation", {settings::text_of(*settings.sun_elevation_deg)}); }
-    if (settings.triangles) { add("triangles", {settings::text_of(*settings.triangles)}); }
-    const std::size_t members = words.size();
-    for (const auto& [name, value] : settings.settings) {
-        const auto known = words_of(name);
-        if (known == words.end()) {
-            words.push_back({name, {value}});
-        } else if (static_cast<std::size_t>(known - words.begin()) < members) {
-            throw Error(fmt::format("{}: expected it once, got it among the settings, too", name));
-        } else {
-            known->second.push_back(value);
-        }
-    }
-    return words;
-}
-
-} // namespace
-
-settings::RunSettings run_settings(const WorldSettings& settings) {
-    settings::RunSettings run;
-    run.path.name = settings::live_path;
-    run.path.aircraft.clear();
-    for (const auto& [name, words] : words_by_name(settings)) {
-        check_world_setting(run, name);
-        const std::string note = settings::set_by_name(run, name, words);
-        if (!note.empty()) { tell(settings.on_note, note); }
-    }
-    return run;
 }
 
 } // namespace octant::ui::library

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <mutex>
 #include <octant/flight.h>
 #include <octant/octant.h>
 #include <pybind11/stl.h>
@@ -18,12 +19,39 @@ namespace {
 
 using NamedWords = std::vector<std::pair<std::string, std::string>>;
 
+/// A flight that refuses a second thread while it draws without Python's lock.
+class LockedFlight {
+public:
+    explicit LockedFlight(const FlightSettings& settings) : flight_(settings) {}
+
+    /// The result of call(flight). Throws ValueError.
+    template <class Call>
+    auto with(const Call& call) {
+        const std::unique_lock lock(mutex_, std::try_to_lock);
+        if (!lock) { refuse("flight: expected one thread at a time, got a second one"); }
+        return call(flight_);
+    }
+
+private:
+    Flight flight_;
+    std::mutex mutex_;
+};
+
+/// The same for a method that may take long.
+template <class Call>
+auto unlocked_with(LockedFlight& flight, const Call& call) {
+    return flight.with([&call](Flight& one) {
+        const py::gil_scoped_release unlocked;
+        return call(one);
+    });
+}
+
 /// Loads a flight without Python's lock. Returns it with the notes for the user.
-std::pair<std::unique_ptr<Flight>, std::vector<std::string>> load_flight(
+std::pair<std::unique_ptr<LockedFlight>, std::vector<std::string>> load_flight(
     const NamedWords& settings, const std::string& record) {
     auto notes = std::make_shared<std::vector<std::string>>();
     const py::gil_scoped_release unlocked;
-    auto flight = std::make_unique<Flight>(FlightSettings{.settings = settings,
+    auto flight = std::make_unique<LockedFlight>(FlightSettings{.settings = settings,
         .record = record,
         .on_note = [notes](std::string_view note) { notes->emplace_back(note); }});
     return {std::move(flight), *notes};
@@ -71,20 +99,24 @@ void advance(PilotedAircraft& aircraft, const py::object& action, int steps) {
 } // namespace
 
 void bind_flight(py::module_& module) {
-    py::class_<Flight>(module, "Flight", "What octant.fly is made of.")
-        .def_property_readonly("frame_count", &Flight::frame_count, "Of the whole flight.")
-        .def("next", &Flight::next, py::call_guard<py::gil_scoped_release>(), "Draws the next frame; false at the end.")
-        .def("finish", &Flight::finish, py::call_guard<py::gil_scoped_release>(), "Ends the recording.")
-        .def_property_readonly("frame", &Flight::frame, "Its number, from 0.")
-        .def_property_readonly("time_s", &Flight::time_s, "Simulated time.")
-        .def("rgb", &picture_of, "A new array.")
+    const auto by = [](const auto& call) { return [call](LockedFlight& flight) { return flight.with(call); }; };
+    py::class_<LockedFlight>(module, "Flight", "What octant.fly is made of.")
+        .def_property_readonly(
+            "frame_count", by([](const Flight& flight) { return flight.frame_count(); }), "Of the whole flight.")
         .def(
-            "states",
-            [](const Flight& flight) {
-                return arrays_of_states({flight.states().begin(), flight.states().end()});
-            },
+            "next", [](LockedFlight& flight) { return unlocked_with(flight, [](Flight& one) { return one.next(); }); },
+            "Draws the next frame; false at the end.")
+        .def(
+            "finish", [](LockedFlight& flight) { unlocked_with(flight, [](Flight& one) { one.finish(); }); },
+            "Ends the recording.")
+        .def_property_readonly("frame", by([](const Flight& flight) { return flight.frame(); }), "Its number, from 0.")
+        .def_property_readonly("time_s", by([](const Flight& flight) { return flight.time_s(); }), "Simulated time.")
+        .def("rgb", by(&picture_of), "A new array.")
+        .def("states", by([](const Flight& flight) {
+            return arrays_of_states({flight.states().begin(), flight.states().end()});
+        }),
             "Arrays by name.")
-        .def("timing", &timing_of, "Milliseconds by name.");
+        .def("timing", by(&timing_of), "Milliseconds by name.");
     module.def(
         "load_flight", &load_flight, py::arg("settings"), py::arg("record"), "A flight and the notes for its user.");
     module.def(

@@ -32,56 +32,31 @@ Intrinsics intrinsics_of(const py::object& matrix) {
     const double* k = numbers.data();
     const bool is_pinhole = k[1] == 0.0 && k[3] == 0.0 && k[6] == 0.0 && k[7] == 0.0 && k[8] == 1.0;
     if (!is_pinhole || !(k[0] > 0.0) || !(k[4] > 0.0)) {
-        refuse("K: expected [[fx, 0, cx], [0, fy, cy], [0, 0, 1]] with fx and fy above 0, got another matrix");
+        refuse("K: expected [[fx, 0, cx], [0, fy, cy], [0, 0, 1]] with fx and fy above 0, got " +
+               py::str(numbers.attr("tolist")()).cast<std::string>());
     }
     return {k[0], k[4], k[2], k[5]};
-}
-
-int whole_between(const char* name, int value, int least, int most) {
-    if (value < least || value > most) {
-        refuse(std::string(name) + ": expected " + std::to_string(least) + " to " + std::to_string(most) + ", got " +
-               std::to_string(value));
-    }
-    return value;
-}
-
-double at_least_0(const char* name, double value) {
-    if (!(value >= 0.0 && std::isfinite(value))) {
-        refuse(std::string(name) + ": expected a number not below 0, got " +
-               py::str(py::float_(value)).cast<std::string>());
-    }
-    return value;
 }
 
 /// The arguments of Camera in their order.
 Camera make_camera(int width, int height, double fov_deg, const py::object& matrix, const std::string& distortion,
     std::vector<double> coefficients, int samples, int bits, double exposure, double noise, double shutter_s,
     int blur_frames, double row_time_s) {
-    if (samples != 1 && samples != 4 && samples != 16) {
-        refuse("samples: expected 1, 4 or 16, got " + std::to_string(samples));
-    }
-    if (bits != 8 && bits != 16) { refuse("bits: expected 8 or 16, got " + std::to_string(bits)); }
-    if (!(fov_deg > 0.0 && fov_deg < 180.0)) {
-        refuse(
-            "fov_deg: expected a number above 0, below 180, got " + py::str(py::float_(fov_deg)).cast<std::string>());
-    }
-    if (std::ranges::any_of(coefficients, [](double each) { return !std::isfinite(each); })) {
-        refuse("coefficients: expected finite numbers, got others");
-    }
     Camera camera;
-    camera.width = whole_between("width", width, 1, 8192);
-    camera.height = whole_between("height", height, 1, 8192);
+    camera.width = width;
+    camera.height = height;
     camera.fov_deg = fov_deg;
     if (!matrix.is_none()) { camera.intrinsics = intrinsics_of(matrix); }
     camera.distortion = distortion_of(distortion);
     camera.coefficients = std::move(coefficients);
     camera.samples = samples;
     camera.bits = bits;
-    camera.exposure = at_least_0("exposure", exposure);
-    camera.noise = at_least_0("noise", noise);
-    camera.shutter_s = at_least_0("shutter_s", shutter_s);
-    camera.blur_frames = whole_between("blur_frames", blur_frames, 1, 1000);
-    camera.row_time_s = at_least_0("row_time_s", row_time_s);
+    camera.exposure = exposure;
+    camera.noise = noise;
+    camera.shutter_s = shutter_s;
+    camera.blur_frames = blur_frames;
+    camera.row_time_s = row_time_s;
+    camera.check();
     return camera;
 }
 
@@ -126,8 +101,9 @@ distortion, coefficients: "none"; "brown-conrady" with k1, k2, p1, p2, k3; "fish
 samples: of each pixel, 1, 4 or 16.
 bits: of each colour, 8 or 16: rgb arrays are uint8 or uint16.
 exposure: factor of linear light. noise: standard deviation, share of full scale.
-shutter_s, blur_frames: motion blur over this time, from so many pictures. row_time_s: rolling shutter.
-Raises ValueError for values out of range.
+shutter_s, blur_frames: motion blur over this time, from so many pictures. row_time_s: rolling shutter, the time from
+one row to the next one below; negative: from below.
+Raises octant.Error, a ValueError, for values out of range.
 
 >>> import octant
 >>> camera = octant.Camera(width=640, height=360, fov_deg=60)
@@ -197,9 +173,7 @@ array([[0., 0., 1.]])
 )")
         .def("__eq__",
             [](const Camera& camera, const py::object& other) {
-                if (!py::isinstance<Camera>(other)) { return false; }
-                const py::object repr = py::module_::import("builtins").attr("repr");
-                return repr(arguments_of(camera)).equal(repr(arguments_of(other.cast<const Camera&>())));
+                return py::isinstance<Camera>(other) && camera == other.cast<const Camera&>();
             })
         .def("__hash__",
             [](const Camera& camera) { return py::hash(py::make_tuple(camera.width, camera.height, camera.fov_deg)); })

@@ -116,7 +116,9 @@ RenderCall call_of(const py::object& eye, const py::object& look, const py::kwar
 /// The memory of an array of exactly this type and shape, which is written to. Throws ValueError.
 template <class Value>
 Value* memory_of(const py::handle& value, const std::string& name, const std::vector<py::ssize_t>& shape) {
-    if (!py::isinstance<py::array>(value)) { refuse(name + ": expected a NumPy array, got another object"); }
+    if (!py::isinstance<py::array>(value)) {
+        refuse(name + ": expected a NumPy array, got " + py::str(py::type::of(value)).cast<std::string>());
+    }
     const auto array = py::reinterpret_borrow<py::array>(value);
     const bool has_shape = std::vector<py::ssize_t>(array.shape(), array.shape() + array.ndim()) == shape;
     if (!has_shape) {
@@ -127,8 +129,13 @@ Value* memory_of(const py::handle& value, const std::string& name, const std::ve
         refuse(name + ": expected values of type " + py::str(py::dtype::of<Value>()).cast<std::string>() + ", got " +
                py::str(array.dtype()).cast<std::string>());
     }
-    if ((array.flags() & py::array::c_style) == 0 || !array.writeable()) {
-        refuse(name + ": expected an array that can be written to, without gaps (C-contiguous), got another");
+    if (!array.writeable()) { refuse(name + ": expected an array that can be written to, got a read-only one"); }
+    if ((array.flags() & py::array::c_style) == 0) {
+        refuse(name + ": expected an array without gaps (C-contiguous), got one with strides of " +
+               py::str(array.attr("strides")).cast<std::string>() + " bytes");
+    }
+    if (reinterpret_cast<std::uintptr_t>(array.data()) % alignof(Value) != 0) {
+        refuse(name + ": expected an aligned array, got one that begins between two values of its type");
     }
     return static_cast<Value*>(py::reinterpret_borrow<py::array>(value).mutable_data());
 }
@@ -196,7 +203,10 @@ py::array_t<double> heights(const OpenWorld& open, const py::object& x_m, const 
     const std::shared_ptr<const World> world = open.get();
     const Numbers x = finite_numbers(x_m, "x_m");
     const Numbers y = finite_numbers(y_m, "y_m");
-    if (x.size() != y.size()) { refuse("y_m: expected as many values as x_m, got another number"); }
+    if (x.size() != y.size()) {
+        refuse(
+            "y_m: expected " + std::to_string(x.size()) + " values, as many as x_m, got " + std::to_string(y.size()));
+    }
     py::array_t<double> result(x.size());
     for (py::ssize_t i = 0; i < x.size(); ++i) { result.mutable_data()[i] = world->height_m(x.data()[i], y.data()[i]); }
     return result;

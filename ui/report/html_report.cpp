@@ -83,7 +83,9 @@ std::vector<std::string> differing_settings(Recordings recordings, SettingRoles 
     for (const auto& [name, value] : recordings.front().run.settings) {
         const bool is_ignored = roles != nullptr && role_of(name, roles) == SettingRole::Ignored;
         const bool differs = std::ranges::any_of(
-            recordings, [&](const LoadedRecording& each) { return value_of(each.run.settings, name) != value; });
+            recordings, [&name = name, &value = value](const LoadedRecording& each) { // clang 14 captures no binding
+                return value_of(each.run.settings, name) != value;
+            });
         if (differs && !is_ignored) { names.push_back(name); }
     }
     return names;

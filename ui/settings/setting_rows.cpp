@@ -3,10 +3,12 @@
 #include "sim/base/error.h"
 #include "sim/base/text_file.h"
 #include "ui/base/data_files.h"
+#include "ui/base/spelling.h"
 #include "ui/settings/aircraft_entry.h"
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <utility>
@@ -73,9 +75,53 @@ std::string set_by_name(RunSettings& settings, std::string_view name, const std:
     visit_rows(read);
     visit_old_rows(read);
     if (!known) {
-        throw Error(fmt::format("{}: expected the name of a setting, got this", printable(std::string(name))));
+        std::vector<std::string> names;
+        visit_rows([&names](const SettingInfo& row) { names.emplace_back(row.name); });
+        throw Error(fmt::format("{}: expected the name of a setting, got {}{}", printable(std::string(name)),
+            in_quotes(name), base::did_you_mean(name, names)));
     }
     return note;
+}
+
+const std::vector<SettingFamily>& setting_families() {
+    static const std::vector<SettingFamily> families{
+        {"--show", "[no-]KEY,...", "what the picture shows:", SettingGroup::View,
+            {{"head-up-display", "head-up-display"}, {"path-ribbon", "path-ribbon"}, {"shadows", "shadows"},
+                {"relief-shadows", "relief-shadows"}, {"roads", "roads"}, {"airfield", "airfield"},
+                {"mesh", "show-mesh"}, {"model", "show-model"}}},
+        {"--paper-shading", "KEY=VALUE,...", "shading rule of the paper:", SettingGroup::Shading,
+            {{"near", "shading-near"}, {"far", "shading-far"}, {"device-ratio", "device-ratio"}}},
+        {"--terrain-mesh", "[no-]KEY,...", "properties of the terrain mesh:", SettingGroup::Ground,
+            {{"geomorphs", "geomorphs"}, {"ahead", "mesh-ahead"}, {"curvature", "earth-curvature"}}},
+        {"--haze", "KEY=VALUE,...", "haze, besides --visibility:", SettingGroup::Air,
+            {{"height", "haze-height"}, {"colour", "background"}}},
+        {"--ground-look", "KEY=VALUE,...", "appearance of the ground:", SettingGroup::Air,
+            {{"palette", "palette"}, {"shading", "ground-shading"}, {"water-level", "water-level"}}}};
+    return families;
+}
+
+std::string with_setting_names(std::string_view message) {
+    std::vector<std::pair<std::string, std::string_view>> names; // as a command line has it, and as it is called
+    for (const SettingFamily& family : setting_families()) {
+        for (const auto& [key, setting] : family.keys) {
+            names.emplace_back(fmt::format("{} {}", family.name, key), setting);
+        }
+    }
+    const auto add = [&names](const SettingInfo& row) { names.emplace_back(fmt::format("--{}", row.name), row.name); };
+    visit_rows(add);
+    visit_old_rows(add);
+    const auto continues = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '-'; };
+    std::string text;
+    while (!message.empty()) {
+        const auto is_here = [&](const auto& name) {
+            return message.starts_with(name.first) &&
+                   (message.size() == name.first.size() || !continues(message[name.first.size()]));
+        };
+        const auto name = text.empty() || !continues(text.back()) ? std::ranges::find_if(names, is_here) : names.end();
+        text += name == names.end() ? message.substr(0, 1) : name->second;
+        message.remove_prefix(name == names.end() ? 1 : name->first.size());
+    }
+    return text;
 }
 
 void resolve_paths_from(const fs::path& folder, RunSettings& settings) {

@@ -12,6 +12,7 @@
 #include <string>
 #include <string_view>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 namespace octant::ui::settings {
@@ -454,6 +455,21 @@ report::SettingRole comparison_role(std::string_view name);
 /// Error "NAME: expected ..., got ..." and for a name that no setting has. Returns the note for a value under an old
 /// name, else an empty string.
 std::string set_by_name(RunSettings& settings, std::string_view name, const std::vector<std::string>& words);
+
+/// Settings that are keys of one option: `--show roads` and `--show no-roads` set "roads".
+struct SettingFamily {
+    std::string_view name; ///< of the option, with its dashes
+    std::string_view form;
+    std::string_view meaning;
+    SettingGroup group;
+    std::vector<std::pair<std::string_view, std::string_view>> keys; ///< key and name of the setting
+};
+
+const std::vector<SettingFamily>& setting_families();
+
+/// A message with the names of settings in place of their options: "--show path-ribbon" becomes "path-ribbon",
+/// "--near-detail" becomes "near-detail". Other options stay.
+std::string with_setting_names(std::string_view message);
 
 /// Replaces names of files that exist relative to `folder` by paths that are valid from the working directory. Built-in
 /// names have precedence; names of files that do not exist there stay.

@@ -54,8 +54,9 @@ void check_part(const RunSettings& settings) {
         throw Error(fmt::format("--part: expected K/N, the Kth of N parts, got '{}'", printable(*settings.time.part)));
     }
     if (settings.adapt.terrain || settings.adapt.shading) {
-        throw Error("--part: expected --adapt none beside it, as what follows the clock depends on "
-                    "frames that another part draws, got another");
+        throw Error(fmt::format("--part: expected --adapt none beside it, as what follows the clock depends on frames "
+                                "that another part draws, got --adapt {}",
+            text_of(settings.adapt)));
     }
     if (settings.path.name == live_path) { throw Error("--part: expected a path or a track, got what others fly"); }
 }
@@ -64,8 +65,9 @@ void check_shading(const scene::ShadingSettings& shading, const scene::Adaptatio
     const bool by_share =
         adapt.shading || shading.device_ratio || shading.smooth_share < 1.0 || shading.rule == scene::HybridRule::Paper;
     if (by_share && shading.kind != scene::AircraftShading::Hybrid) {
-        throw Error("--shading: expected hybrid beside --adapt shading, --smooth-share, "
-                    "--paper-shading device-ratio or --shading-rule paper, got another one");
+        throw Error(fmt::format("--shading: expected hybrid beside --adapt shading, --smooth-share, "
+                                "--paper-shading device-ratio or --shading-rule paper, got {}",
+            text_of(shading.kind)));
     }
     if (shading.far_m <= shading.near_m) {
         throw Error(
@@ -75,7 +77,8 @@ void check_shading(const scene::ShadingSettings& shading, const scene::Adaptatio
 
 void check_terrain_adaptation(const scene::GroundSettings& ground, const std::string& terrain) {
     if (ground.lod.control != visuals::terrain::DetailControl::Exact) {
-        throw Error("--adapt terrain: expected --terrain-lod screen-error or exact, got another control");
+        throw Error(fmt::format("--adapt terrain: expected --terrain-lod screen-error or exact, got --terrain-lod {}",
+            text_of(ground.lod)));
     }
     if (has_no_detail_levels(terrain)) {
         throw Error(fmt::format("--adapt terrain: expected ground with levels of detail, got {}", terrain));
@@ -92,11 +95,12 @@ void check_ground(const scene::GroundSettings& ground, const std::string& terrai
             "that only --terrain-lod exact or paper has");
     }
     if (!by_error && is_imported_ground(terrain)) {
-        throw Error(fmt::format(
-            "{}: expected --terrain-lod screen-error for an imported ground, got another one", printable(terrain)));
+        throw Error(fmt::format("{}: expected --terrain-lod screen-error for an imported ground, got --terrain-lod {}",
+            printable(terrain), text_of(ground.lod)));
     }
     if (!by_error && ground.error_px) {
-        throw Error("--error-px: expected --terrain-lod screen-error, got another one");
+        throw Error(
+            fmt::format("--error-px: expected --terrain-lod screen-error, got --terrain-lod {}", text_of(ground.lod)));
     }
 }
 
@@ -137,9 +141,11 @@ void check_eye_point(const scene::ViewSettings& view) {
     }
     if (free && *view.eye_m == *view.look_m) { throw Error("--look: expected another point than --eye, got the same"); }
     if (!free && view.kind != scene::View::Tower && view.eye_m) {
-        throw Error("--eye: expected --view tower or free beside it, got another view");
+        throw Error(fmt::format("--eye: expected --view tower or free beside it, got --view {}", text_of(view.kind)));
     }
-    if (!free && view.look_m) { throw Error("--look: expected --view free beside it, got another view"); }
+    if (!free && view.look_m) {
+        throw Error(fmt::format("--look: expected --view free beside it, got --view {}", text_of(view.kind)));
+    }
 }
 
 void check_settings(const RunSettings& settings) {
@@ -148,7 +154,8 @@ void check_settings(const RunSettings& settings) {
         models::polygons::FileAxes::from_text(settings.path.axes);
     }
     if (settings.view.inset == scene::View::Free && settings.view.kind != scene::View::Free) {
-        throw Error("--inset free: expected --view free beside it, got another view");
+        throw Error(
+            fmt::format("--inset free: expected --view free beside it, got --view {}", text_of(settings.view.kind)));
     }
     check_part(settings);
     if (settings.adapt.terrain) { check_terrain_adaptation(settings.ground, settings.path.terrain); }

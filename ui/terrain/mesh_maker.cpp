@@ -2,6 +2,7 @@
 
 #include "sim/base/binary_file.h"
 #include "sim/base/error.h"
+#include "ui/settings/settings_text.h"
 #include "visuals/terrain/bisection_mesher.h"
 #include "visuals/terrain/quadtree.h"
 #include "visuals/terrain/quadtree_mesher.h"
@@ -91,7 +92,8 @@ std::unique_ptr<MeshMaker> make_mesh_maker(const LoadedGround& ground, const Gro
         return std::make_unique<ErrorMaker>(ground, options);
     }
     if (ground.field() == nullptr) {
-        throw Error("--terrain-lod: expected screen-error for an imported ground, got another kind");
+        throw Error(fmt::format(
+            "--terrain-lod: expected screen-error for an imported ground, got {}", settings::text_of(options.lod)));
     }
     return std::make_unique<QuadtreeMaker>(*ground.field(), options);
 }

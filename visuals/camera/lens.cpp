@@ -222,51 +222,97 @@ bool contains_centre(const LensModel& lens) {
     return at.x >= 0.0 && at.y >= 0.0 && at.x <= lens.size_px.x - 1 && at.y <= lens.size_px.y - 1;
 }
 
-/// Sums of three colours, each in 21 bits.
-constexpr unsigned lane_bits = 21;
-constexpr std::uint64_t lane_mask = (std::uint64_t{1} << lane_bits) - 1;
+/// Three colours in a number, 21 bits each: of 8 bits they can be weighted and added together.
+struct PackedColours {
+    static constexpr unsigned lane_bits = 21;
+
+    std::uint64_t packed = 0;
+
+    friend PackedColours operator+(PackedColours a, PackedColours b) { return {a.packed + b.packed}; }
+
+    friend PackedColours operator*(PackedColours a, std::uint32_t weight) { return {a.packed * weight}; }
+
+    std::uint32_t operator[](unsigned colour) const {
+        return static_cast<std::uint32_t>(packed >> (lane_bits * colour) & ((std::uint64_t{1} << lane_bits) - 1));
+    }
+};
+
+/// Three colours of 16 bits, or weighted sums of them.
+struct DeepSums {
+    std::array<std::uint32_t, 3> of{};
+
+    friend DeepSums operator+(const DeepSums& a, const DeepSums& b) {
+        return {{a.of[0] + b.of[0], a.of[1] + b.of[1], a.of[2] + b.of[2]}};
+    }
+
+    friend DeepSums operator*(const DeepSums& a, std::uint32_t weight) {
+        return {{a.of[0] * weight, a.of[1] * weight, a.of[2] * weight}};
+    }
+
+    std::uint32_t operator[](unsigned colour) const { return of[colour]; }
+};
+
+/// The pixels of a picture with 8 bits.
+struct PicturePixels {
+    using Colours = PackedColours;
+    static constexpr std::uint32_t full_by = 257; ///< makes a colour one of 16 bits
+    const std::uint8_t* first;
+
+    PackedColours at(std::size_t pixel) const {
+        const std::uint8_t* const rgba = first + 4 * pixel;
+        return {rgba[0] | std::uint64_t{rgba[1]} << PackedColours::lane_bits |
+                std::uint64_t{rgba[2]} << (2 * PackedColours::lane_bits)};
+    }
+};
+
+/// The pixels of a picture with 16 bits.
+struct DeepPixels {
+    using Colours = DeepSums;
+    static constexpr std::uint32_t full_by = 1;
+    const std::uint16_t* first;
+
+    DeepSums at(std::size_t pixel) const {
+        const std::uint16_t* const rgb = first + 3 * pixel;
+        return {{rgb[0], rgb[1], rgb[2]}};
+    }
+};
 
 /// A picture that is read between its pixels.
+template <class Pixels>
 class PictureReader {
 public:
-    explicit PictureReader(const scene::Picture& picture)
-        : rgba_(picture.rgba.data()), row_bytes_(std::size_t{4} * static_cast<std::size_t>(picture.width)),
-          last_(picture.width - 1, picture.height - 1) {}
-
+    using Colours = typename Pixels::Colours;
+    static constexpr std::uint32_t full_by = Pixels::full_by;
     static constexpr int fraction_bits = 5;
     static constexpr std::uint32_t whole = 1U << (2 * fraction_bits);
 
+    PictureReader(const Pixels& pixels, const glm::ivec2& size_px)
+        : pixels_(pixels), width_(static_cast<std::size_t>(size_px.x)), last_(size_px - 1) {}
+
     /// Between the four pixels around a place, 1/32 pixel; the sum of weights is `whole`.
-    std::uint64_t between(int x, int y) const {
+    Colours between(int x, int y) const {
         constexpr int unit = 1 << fraction_bits;
-        const auto right = static_cast<std::uint64_t>(x & (unit - 1));
-        const auto below = static_cast<std::uint64_t>(y & (unit - 1));
-        const int column = std::clamp(x >> fraction_bits, 0, last_.x - 1);
-        const int row = std::clamp(y >> fraction_bits, 0, last_.y - 1);
-        const std::uint8_t* const at = pixel(column, row);
-        const std::uint64_t upper = spread(at) * (unit - right) + spread(at + 4) * right;
-        const std::uint64_t lower = spread(at + row_bytes_) * (unit - right) + spread(at + row_bytes_ + 4) * right;
+        const auto right = static_cast<std::uint32_t>(x & (unit - 1));
+        const auto below = static_cast<std::uint32_t>(y & (unit - 1));
+        const std::size_t at =
+            place(std::clamp(x >> fraction_bits, 0, last_.x - 1), std::clamp(y >> fraction_bits, 0, last_.y - 1));
+        const Colours upper = pixels_.at(at) * (unit - right) + pixels_.at(at + 1) * right;
+        const Colours lower = pixels_.at(at + width_) * (unit - right) + pixels_.at(at + width_ + 1) * right;
         return upper * (unit - below) + lower * below;
     }
 
-    /// The nearest pixel, times `whole`.
-    std::uint64_t nearest(const glm::vec2& at) const {
-        const int column = std::clamp(static_cast<int>(std::floor(at.x + 0.5F)), 0, last_.x);
-        const int row = std::clamp(static_cast<int>(std::floor(at.y + 0.5F)), 0, last_.y);
-        return spread(pixel(column, row)) * whole;
+    Colours nearest(const glm::vec2& at) const {
+        return pixels_.at(place(std::clamp(static_cast<int>(std::floor(at.x + 0.5F)), 0, last_.x),
+            std::clamp(static_cast<int>(std::floor(at.y + 0.5F)), 0, last_.y)));
     }
 
 private:
-    const std::uint8_t* pixel(int column, int row) const {
-        return rgba_ + static_cast<std::size_t>(row) * row_bytes_ + static_cast<std::size_t>(column) * 4;
+    std::size_t place(int column, int row) const {
+        return static_cast<std::size_t>(row) * width_ + static_cast<std::size_t>(column);
     }
 
-    static std::uint64_t spread(const std::uint8_t* rgba) {
-        return rgba[0] | std::uint64_t{rgba[1]} << lane_bits | std::uint64_t{rgba[2]} << (2 * lane_bits);
-    }
-
-    const std::uint8_t* rgba_;
-    std::size_t row_bytes_;
+    Pixels pixels_;
+    std::size_t width_;
     glm::ivec2 last_;
 };
 
@@ -283,8 +329,9 @@ int places_along(const glm::i16vec2& side) {
 
 using ColourSums = std::array<std::uint32_t, 3>;
 
-ColourSums mean_over(const FootPrint& print, const PictureReader& picture) {
-    constexpr int shift = 8 - PictureReader::fraction_bits;
+template <class Reader>
+ColourSums mean_over(const FootPrint& print, const Reader& picture) {
+    constexpr int shift = 8 - Reader::fraction_bits;
     const int columns = places_along(print.right);
     const int rows = places_along(print.down);
     const glm::ivec2 middle(glm::floor(print.at_px * 256.0F + 0.5F));
@@ -293,18 +340,16 @@ ColourSums mean_over(const FootPrint& print, const PictureReader& picture) {
     ColourSums sums{};
     for (int j = 0; j < rows; ++j) {
         const glm::ivec2 start = middle + down * (2 * j + 1 - rows) / (2 * rows) + (1 << (shift - 1));
-        std::uint64_t row_sum = 0; // at most 8 times 255 * 1024: fits in 21 bits
+        typename Reader::Colours row_sum; // at most 8 times 255 * 1024: fits in 21 bits
         for (int i = 0; i < columns; ++i) {
             const glm::ivec2 at = start + right * (2 * i + 1 - columns) / (2 * columns);
-            row_sum += picture.between(at.x >> shift, at.y >> shift);
+            row_sum = row_sum + picture.between(at.x >> shift, at.y >> shift);
         }
-        for (unsigned k = 0; k < 3; ++k) {
-            sums[k] += static_cast<std::uint32_t>(row_sum >> (lane_bits * k) & lane_mask);
-        }
+        for (unsigned k = 0; k < 3; ++k) { sums[k] += row_sum[k]; } // at most 64 times 65535 * 1024: fits in 32 bits
     }
-    const auto weight = static_cast<std::uint32_t>(columns * rows) * PictureReader::whole;
+    const auto weight = static_cast<std::uint32_t>(columns * rows) * Reader::whole;
     for (std::uint32_t& sum : sums) {
-        sum = static_cast<std::uint32_t>((std::uint64_t{sum} * 257U + weight / 2) / weight);
+        sum = static_cast<std::uint32_t>((std::uint64_t{sum} * Reader::full_by + weight / 2) / weight);
     }
     return sums;
 }
@@ -478,16 +523,31 @@ void Lens::resample(const Face& face, const scene::Picture& picture, int first_r
         }
         return;
     }
-    const PictureReader reader(picture);
+    resample_by(PictureReader(PicturePixels{picture.rgba.data()}, face.size_px), face, first_row, end_row, colours);
+}
+
+void Lens::resample(const Face& face, std::span<const std::uint16_t> picture, int first_row, int end_row,
+    std::span<std::uint16_t> colours) const {
+    assert(picture.size() == 3 * static_cast<std::size_t>(face.size_px.x) * static_cast<std::size_t>(face.size_px.y));
+    if (is_pinhole()) {
+        const auto row_values = 3 * static_cast<std::ptrdiff_t>(face.size_px.x);
+        std::copy(picture.begin() + row_values * first_row, picture.begin() + row_values * end_row,
+            colours.begin() + row_values * first_row);
+        return;
+    }
+    resample_by(PictureReader(DeepPixels{picture.data()}, face.size_px), face, first_row, end_row, colours);
+}
+
+template <class Reader>
+void Lens::resample_by(
+    const Reader& reader, const Face& face, int first_row, int end_row, std::span<std::uint16_t> colours) const {
     const std::span<const FootPrint> prints = face.foot_prints_of(first_row, end_row);
     const std::span<const std::uint32_t> pixels = face.pixels_of(first_row, end_row);
     for (std::size_t i = 0; i < prints.size(); ++i) {
         ColourSums sums{};
         if (has_one_sample_) {
-            const std::uint64_t nearest = reader.nearest(prints[i].at_px) / PictureReader::whole;
-            for (unsigned k = 0; k < 3; ++k) {
-                sums[k] = static_cast<std::uint32_t>(nearest >> (lane_bits * k) & lane_mask) * 257U;
-            }
+            const auto nearest = reader.nearest(prints[i].at_px);
+            for (unsigned k = 0; k < 3; ++k) { sums[k] = nearest[k] * Reader::full_by; }
         } else {
             sums = mean_over(prints[i], reader);
         }

@@ -71,6 +71,9 @@ public:
     /// picture.
     void resample(const Face& face, const scene::Picture& picture, int first_row, int end_row,
         std::span<std::uint16_t> colours) const;
+    /// The same from a picture of the face with 16 bits: red, green, blue of each pixel, 65535 = full.
+    void resample(const Face& face, std::span<const std::uint16_t> picture, int first_row, int end_row,
+        std::span<std::uint16_t> colours) const;
 
     /// The depth of a point that the face shows at a place, for one that is 1 along the face's axis: with it, the
     /// model's ray times the depth is the point. It is along the camera's axis, but the distance for rays of unit
@@ -86,6 +89,9 @@ private:
     void check_folds() const;
     void make_pinhole(int samples);
     void make_faces(int samples);
+    template <class Reader>
+    void resample_by(
+        const Reader& reader, const Face& face, int first_row, int end_row, std::span<std::uint16_t> colours) const;
 
     LensModel model_;
     bool has_one_sample_ = false;

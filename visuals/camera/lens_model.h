@@ -51,6 +51,8 @@ public:
     /// for there.
     explicit PointProjector(const LensModel& lens, double safe_radius = 0.0);
 
+    const LensModel& lens() const { return lens_; }
+
     std::optional<glm::dvec2> project(const glm::dvec3& point) const;
 
 private:

@@ -139,12 +139,16 @@ TEST_CASE("pictures in colour and numbers that are no heights are refused") {
     RasterFile colour = flat(4, 4);
     colour.type = GDT_Byte;
     colour.bands = 3;
-    check_raster_refused(colour, "expected one band of heights, got a colour picture", "PNG");
-    check_raster_refused(colour, "expected one band of heights, got a colour picture", "PNM");
+    colour.values.assign(48, 5.0);
+    colour.values.back() = 6.0;
+    const std::string refused =
+        "expected one band of heights, got a colour picture: --band N takes one of its bands for heights";
+    check_raster_refused(colour, refused, "PNG");
+    check_raster_refused(colour, refused, "PNM");
     colour.bands = 1;
     colour.has_palette = true;
     colour.values.assign(16, 0.0);
-    check_raster_refused(colour, "expected one band of heights, got a colour picture", "PNG");
+    check_raster_refused(colour, refused, "PNG");
     RasterFile complex = flat(4, 4);
     complex.type = GDT_CFloat32;
     check_raster_refused(complex, "expected real heights, got complex numbers");

@@ -589,7 +589,23 @@ TEST_CASE("photographs and drawings are no coded heights") {
     const path file = scratch_file("photo.png");
     write_raster(file, "PNG", picture);
     CHECK_THROWS_WITH(read_height_field(file), Contains("got a colour picture"));
-    picture.values.assign(picture.values.size(), 128.0); // grey
+}
+
+TEST_CASE("a picture in colour that is grey everywhere is one of heights") {
+    RasterFile picture;
+    picture.columns = 40;
+    picture.rows = 30;
+    picture.type = GDT_Byte;
+    picture.bands = 3;
+    for (int band = 0; band < 3; ++band) {
+        for (int i = 0; i < 40 * 30; ++i) { picture.values.push_back(i % 40 + i / 40); }
+    }
+    const path file = scratch_file("grey.png");
+    write_raster(file, "PNG", picture);
+    const HeightField field = read_height_field(file);
+    CHECK(height_at(field, 7, 5) == 12.0);
+    CHECK_THAT(notes_text(field), Contains("red, green and blue are the same everywhere: taken for heights"));
+    picture.values.back() += 1.0;
     write_raster(file, "PNG", picture);
     CHECK_THROWS_WITH(read_height_field(file), Contains("got a colour picture"));
 }

@@ -141,18 +141,16 @@ TEST_CASE("a camera that cannot be is refused in one line") {
     CHECK(failure(camera).find("camera: expected a distortion that is one to one "
                                "over the picture") == 0);
     camera.coefficients.assign(6, 0.0);
-    CHECK(failure(camera) == "camera: expected at most 5 coefficients of the distortion, got 6");
+    CHECK(failure(camera) == "camera: coefficients: expected at most 5, as many as the distortion has, got 6");
     camera = Camera{};
     camera.coefficients = {0.1};
-    CHECK(failure(camera) == "camera: expected at most 0 coefficients of the distortion, got 1");
+    CHECK(failure(camera) == "camera: coefficients: expected at most 0, as many as the distortion has, got 1");
     camera = Camera{};
     camera.noise = -0.1;
     CHECK(failure(camera) == "camera: noise: expected 0 to 1, got -0.1");
     camera = Camera{};
     camera.blur_frames = 0;
     CHECK(failure(camera) == "camera: blur_frames: expected 1 to 256, got 0");
-    CHECK(refusal_of([&] { world.boxes(barrel(64, 48), std::vector<Pose>(1)); }) ==
-          "boxes: expected a camera without distortion");
     camera = Camera{};
     camera.exposure = std::numeric_limits<double>::quiet_NaN();
     CHECK(failure(camera) == "camera: exposure: expected 0 to 1000000, got nan");
@@ -360,4 +358,119 @@ TEST_CASE("the noise of a picture is that of its seed and number, in all "
     options.first_index = 0;
     options.noise_seed = 5;
     CHECK(different.count(scene.world.render(camera, {&poses[0], 1}, Output::Rgb, options).rgb) == 0);
+}
+
+TEST_CASE("a distorted picture with 16 bits has the levels of its faces, not of 256 steps") {
+    const Scene scene = f15_over_hills(false);
+    Camera plain{160, 120, 60.0};
+    plain.bits = 16;
+    Camera lens = plain;
+    lens.distortion = Distortion::BrownConrady; // without coefficients: the same picture, but by a face
+    const Frames expected = scene.world.render(plain, {&scene.pose, 1}, Output::Rgb | Output::ClassId);
+    const Frames found = scene.world.render(lens, {&scene.pose, 1});
+    std::vector<int> differences;
+    for (std::size_t i = 0; i < expected.class_id.size(); ++i) {
+        if (expected.class_id[i] != 0) { continue; } // the sky changes slowly
+        for (std::size_t k = 3 * i; k < 3 * i + 3; ++k) {
+            differences.push_back(std::abs(expected.rgb16[k] - found.rgb16[k]));
+        }
+    }
+    REQUIRE(differences.size() > 1000);
+    std::ranges::nth_element(differences, differences.begin() + static_cast<std::ptrdiff_t>(differences.size() / 2));
+    CHECK(differences[differences.size() / 2] < 16); // steps of 257 would be off by 64
+}
+
+namespace {
+
+/// The rectangle of an object's pixels, as Box::visible_px.
+Extent shown_extent(const Frames& frames, int& pixels) {
+    Extent extent;
+    pixels = 0;
+    for (int row = 0; row < frames.height; ++row) {
+        for (int column = 0; column < frames.width; ++column) {
+            if (frames.object_id[static_cast<std::size_t>(row * frames.width + column)] == 0) { continue; }
+            extent.add(column, row);
+            extent.add(column + 1, row + 1);
+            ++pixels;
+        }
+    }
+    return extent;
+}
+
+/// The rectangle of a box's edges in a picture.
+Extent edge_extent(const Box& box, const Camera& camera, const Pose& pose) {
+    const glm::dquat to_camera = glm::conjugate(as_glm(to_opencv(pose.attitude)));
+    Extent extent;
+    for (unsigned a = 0; a < 8; ++a) {
+        for (const unsigned bit : {1U, 2U, 4U}) {
+            for (int i = 0; i <= 1000; ++i) {
+                const glm::dvec3 at =
+                    glm::mix(as_glm(box.corners_m[a]), as_glm(box.corners_m[a ^ bit]), static_cast<double>(i) / 1000.0);
+                const glm::dvec3 seen = to_camera * (at - as_glm(pose.eye_m));
+                if (const auto px = camera.project({seen.x, seen.y, seen.z})) {
+                    extent.add(px->first + 0.5, px->second + 0.5);
+                }
+            }
+        }
+    }
+    return extent;
+}
+
+} // namespace
+
+TEST_CASE("boxes of distorted and rolling pictures are those of their object ids and of the projected box") {
+    const Scene scene = f15_over_hills(true);
+    Camera rolling{320, 240, 60.0};
+    rolling.row_time_s = 3e-4;
+    Camera both = barrel(320, 240);
+    both.row_time_s = -2e-4;
+    for (const Camera& camera : {barrel(320, 240), fisheye(400), rolling, both}) {
+        const std::vector<Box> boxes = scene.world.boxes(camera, {&scene.pose, 1}).front();
+        REQUIRE(boxes.size() == 1);
+        const Box& box = boxes[0];
+        int pixels = 0;
+        const Extent seen = shown_extent(scene.world.render(camera, {&scene.pose, 1}, Output::ObjectId), pixels);
+        CHECK(box.pixels == pixels);
+        CHECK(pixels > 100);
+        CHECK((box.visible_px[0] == seen.min_x && box.visible_px[1] == seen.min_y));
+        CHECK((box.visible_px[2] == seen.max_x && box.visible_px[3] == seen.max_y));
+        CHECK(box.visible_share == 1.0);
+        CHECK(box.truncation == 0.0);
+        const Extent whole = edge_extent(box, camera, scene.pose);
+        CHECK(box.whole_px[0] == Approx(whole.min_x).margin(0.02));
+        CHECK(box.whole_px[1] == Approx(whole.min_y).margin(0.02));
+        CHECK(box.whole_px[2] == Approx(whole.max_x).margin(0.02));
+        CHECK(box.whole_px[3] == Approx(whole.max_y).margin(0.02));
+    }
+}
+
+TEST_CASE("the share of an aircraft outside a distorted picture is that of a larger picture by the same lens") {
+    Scene scene = f15_over_hills(false);
+    for (const Camera& large : {barrel(640, 480), fisheye(600)}) {
+        const Box whole = scene.world.boxes(large, {&scene.pose, 1}).front().at(0);
+        REQUIRE(whole.truncation == 0.0);
+        Camera small = large; // ends in the middle of the aircraft
+        small.width = static_cast<int>(0.5 * (whole.visible_px[0] + whole.visible_px[2]));
+        const Box part = scene.world.boxes(small, {&scene.pose, 1}).front().at(0);
+        const double inside = static_cast<double>(part.pixels) / whole.pixels;
+        REQUIRE((inside > 0.2 && inside < 0.8));
+        CHECK(part.visible_px[2] == small.width);
+        CHECK(part.truncation == Approx(1.0 - inside).margin(0.02));
+        CHECK(part.visible_share == Approx(inside).margin(0.02));
+        for (int i = 0; i < 4; ++i) { CHECK(part.whole_px[i] == Approx(whole.whole_px[i]).margin(0.02)); }
+    }
+    // All around the eye, behind a lens that sees all around, too; and behind a camera.
+    scene.states[0].position_m = scene.pose.eye_m;
+    for (const Camera& camera : {barrel(160, 120), fisheye(200)}) {
+        const auto boxes = scene.world.boxes(camera, {&scene.pose, 1}, {.states = scene.states});
+        for (const Box& box : boxes.front()) {
+            for (const double edge : box.whole_px) { CHECK(std::isfinite(edge)); }
+            CHECK((box.truncation >= 0.0 && box.truncation <= 1.0));
+            CHECK((box.visible_share >= 0.0 && box.visible_share <= 1.0));
+        }
+    }
+    const glm::dvec3 behind =
+        as_glm(scene.pose.eye_m) - as_glm(to_opencv(scene.pose.attitude)) * glm::dvec3(0.0, 0.0, 80.0);
+    scene.states[0].position_m = {behind.x, behind.y, behind.z};
+    CHECK(scene.world.boxes(barrel(160, 120), {&scene.pose, 1}, {.states = scene.states}).front().empty());
 }

@@ -4,10 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <csignal>
 #include <filesystem>
 #include <octant/flight.h>
 #include <octant/octant.h>
 #include <string>
+#include <sys/wait.h>
+#include <unistd.h>
 #include <utility>
 #include <vector>
 
@@ -50,6 +53,29 @@ TEST_CASE("wrong settings of flights are refused") {
         CHECK_THROWS_AS(Flight({.settings = {wrong}}), Error);
     }
     CHECK_THROWS_AS(write_report({}, "page.html"), Error);
+    CHECK_THROWS_WITH(Flight({.settings = {{"view", "chase"}, {"look", "1,2,3"}}}),
+        "look: expected view free beside it, got view chase");
+}
+
+TEST_CASE("a forked process refuses its parent's flight and ends") {
+    Flight flight({.settings = small_flight, .on_note = [](auto) {}});
+    REQUIRE(flight.next());
+    const pid_t child = fork();
+    if (child == 0) {
+        int code = 1;
+        try {
+            flight.next();
+        } catch (const Error&) {
+            const Flight given_up = std::move(flight);
+            code = 0;
+        }
+        _exit(code);
+    }
+    int status = -1;
+    for (int tenth = 0; tenth < 300 && waitpid(child, &status, WNOHANG) == 0; ++tenth) { usleep(100000); }
+    CHECK(status == 0);
+    if (status == -1) { kill(child, SIGKILL); }
+    CHECK(flight.next());
 }
 
 TEST_CASE("the path of a world's settings lies over its ground, as the flight along it") {

@@ -325,12 +325,22 @@ TEST_CASE("wrong arguments are refused in one line") {
 
 TEST_CASE("wrong settings of a world are refused in one line") {
     const auto with = [](const WorldSettings& settings) { return failure_of([&] { const World world(settings); }); };
-    CHECK(with({.settings = {{"terain", "hills"}}}) == "terain: expected the name of a setting, got this");
+    CHECK(with({.settings = {{"terain", "hills"}}}) ==
+          "terain: expected the name of a setting, got 'terain'; perhaps terrain is meant");
     CHECK(with({.settings = {{"size", "64x64"}}}) == "size: expected a setting of a world, got one of views or frames");
     CHECK(with({.aircraft = {"f15"}, .settings = {{"aircraft", "f15"}}}) ==
           "aircraft: expected it once, got it among the settings, too");
     CHECK(with({.settings = {{"clouds", "2"}}}).starts_with("clouds: expected"));
     CHECK(with({.triangles = 3}).starts_with("triangles: expected"));
+    CHECK(with({.sun_elevation_deg = 95.0}).starts_with("sun_elevation_deg: expected"));
+    CHECK(with({.settings = {{"sun-elevation", "95"}}}).starts_with("sun-elevation: expected"));
+    // As settings, not as options.
+    CHECK(with({.settings = {{"shading", "flat"}, {"smooth-share", "0.5"}}}) ==
+          "shading: expected hybrid beside adapt shading, smooth-share, device-ratio or shading-rule paper, got flat");
+    CHECK(with({.settings = {{"path-ribbon", "true"}}}) ==
+          "path-ribbon: expected a path or a track, got what others fly");
+    CHECK(with({.terrain = "none", .settings = {{"ground-shading", "texture"}}}) ==
+          "ground-shading=texture: expected ground with heights (hills, canyon or a file), got terrain none");
     CHECK(with({.aircraft = {"f16"}}).starts_with("aircraft: expected f15"));
     CHECK(with({.terrain = "no-such-file.tif"}).find("no-such-file.tif") != std::string::npos);
 }

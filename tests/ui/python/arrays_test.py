@@ -56,7 +56,8 @@ class Arguments(unittest.TestCase):
         for wrong in (
             {"width": -1}, {"width": 0}, {"height": 10000}, {"fov_deg": 0}, {"fov_deg": float("nan")}, {"fov_deg": 180},
             {"K": np.eye(4)}, {"K": [[1, 2, 3], [0, 1, 0], [0, 0, 1]]}, {"distortion": "odd"}, {"samples": 3}, {"bits": 12},
-            {"coefficients": [float("inf")]}, {"exposure": -1}, {"noise": float("nan")}, {"blur_frames": 0},
+            {"coefficients": [float("inf")]}, {"exposure": -1}, {"noise": float("nan")}, {"blur_frames": 0}, {"noise": 2},
+            {"blur_frames": 257}, {"fov_deg": 175}, {"row_time_s": 2}, {"coefficients": [0.1]},
         ):  # fmt: skip
             with self.assertRaises(ValueError, msg=str(wrong)):
                 octant.Camera(**wrong)
@@ -109,12 +110,20 @@ class Memory(unittest.TestCase):
             "rgb: expected values of type uint8, got float32": right.astype(np.float32),
             "rgb: expected an array that can be written to": read_only,
             "without gaps": np.zeros((4, 32, 48, 6), np.uint8)[..., ::2],
+            "got <class 'list'>": right.tolist(),
             "rgb: expected a NumPy array": right.tolist(),
         }
         for text, array in wrong.items():
             with self.assertRaises(ValueError) as raised:
                 world.render(camera, self.eyes, level, out=octant.Frames({"rgb": array}))
             self.assertIn(text, str(raised.exception))
+        unaligned = np.frombuffer(bytearray(4 * right.size // 3 + 1), np.float32, offset=1).reshape(4, 32, 48)
+        with self.assertRaises(ValueError) as raised:
+            world.render(camera, self.eyes, level, out=octant.Frames({"depth_m": unaligned}))
+        self.assertIn("depth_m: expected an aligned array", str(raised.exception))
+        with self.assertRaises(ValueError) as raised:
+            octant.Frames.empty(camera, -1)
+        self.assertIn("count: expected a whole number from 0", str(raised.exception))
         with self.assertRaises(ValueError):
             world.render(camera, self.eyes, level, out={"rgb": right})
         with self.assertRaises(ValueError):

@@ -1,10 +1,15 @@
-"""Docstrings: their examples run, everything public has one; stubs name everything public and nothing else."""
+"""Docstrings: their examples run, everything public has one. Types: everything public has them."""
 
 import ast
 import doctest
 import importlib
+import importlib.util
 import inspect
+import os
 import pathlib
+import subprocess
+import sys
+import tempfile
 import unittest
 
 import octant
@@ -16,10 +21,9 @@ modules = [octant, octant.envs, octant._recording, octant._octant]
 
 
 def stub_of(module):
-    """The names of a module's stub; of classes, their members."""
-    name = module.__name__.removeprefix("octant").lstrip(".") or "__init__"
-    tree = ast.parse((pathlib.Path(octant.__file__).parent / f"{name}.pyi").read_text(encoding="utf-8"))
-    return names_in(tree)
+    """The names of the extension module's stub; of classes, their members."""
+    stub = pathlib.Path(octant.__file__).parent / f"{module.__name__.removeprefix('octant.')}.pyi"
+    return names_in(ast.parse(stub.read_text(encoding="utf-8")))
 
 
 def names_in(body):
@@ -75,46 +79,59 @@ class Docs(unittest.TestCase):
                     if isinstance(what, property) or inspect.isroutine(what) or isinstance(what, classmethod):
                         self.assertTrue(inspect.getdoc(getattr(value, member)), f"{module.__name__}.{name}.{member}")
 
-    def test_stubs_name_everything_public(self):
-        for module in modules:
-            stub = stub_of(module)
+    def test_the_stub_names_everything_public_and_nothing_else(self):
+        module = octant._octant
+        stub = stub_of(module)
+        for name in public_names(module):
+            self.assertIn(name, stub)
+            if isinstance(stub[name], dict) and name != "Error":
+                for member in public_names(getattr(module, name)):
+                    self.assertIn(member, stub[name], name)
+        for name, members in stub.items():
+            self.assertTrue(hasattr(module, name), name)
+            for member in members if isinstance(members, dict) else ():
+                self.assertTrue(hasattr(getattr(module, name), member), f"{name}.{member}")
+
+    def test_everything_public_has_types(self):
+        for module in (octant, octant.envs, octant._recording):
             for name in public_names(module):
                 value = getattr(module, name)
-                if inspect.ismodule(value) and not name == "envs" or hasattr(value, "_name"):
+                if not has_home_in(value, module):
                     continue
-                if module is octant._recording and not has_home_in(value, module):
-                    continue
-                self.assertIn(name, stub, module.__name__)
-                if inspect.isclass(value) and isinstance(stub[name], dict) and name != "Error":
-                    for member in public_names(value):
-                        self.assertIn(member, stub[name], f"{module.__name__}.{name}")
+                members = [inspect.getattr_static(value, each) for each in public_names(value)] if inspect.isclass(value) else []
+                for each in [value, getattr(value, "__init__", None), *members]:
+                    function = each.fget if isinstance(each, property) else getattr(each, "__func__", each)
+                    if not inspect.isfunction(function):
+                        continue
+                    signature = inspect.signature(function)
+                    self.assertIsNot(signature.return_annotation, signature.empty, function.__qualname__)
+                    for argument in list(signature.parameters.values()):
+                        if argument.name not in ("self", "cls"):
+                            self.assertIsNot(argument.annotation, argument.empty, f"{function.__qualname__}: {argument.name}")
 
-    def test_stubs_name_nothing_else(self):
-        for module in modules:
-            for name, members in stub_of(module).items():
-                if name.startswith("_") and name != "__version__":
-                    continue
-                self.assertTrue(hasattr(module, name), f"{module.__name__}.{name}")
-                value = getattr(module, name)
-                for member in members if isinstance(members, dict) else ():
-                    is_attribute = members[member] is None  # set by the constructor
-                    self.assertTrue(is_attribute or hasattr(value, member), f"{module.__name__}.{name}.{member}")
-
-    def test_stubs_have_the_arguments_of_functions(self):
-        for module in (octant, octant.envs, octant._recording):
-            for name, node in stub_of(module).items():
-                value = getattr(module, name, None)
-                pairs = [(value, node)]
-                if isinstance(node, dict) and inspect.isclass(value):
-                    pairs = [(inspect.getattr_static(value, member), each) for member, each in node.items()
-                             if isinstance(each, ast.FunctionDef)]  # fmt: skip
-                for function, stub in pairs:
-                    function = getattr(function, "__func__", function)
-                    if isinstance(stub, ast.FunctionDef) and inspect.isfunction(function):
-                        arguments = stub.args.posonlyargs + stub.args.args + stub.args.kwonlyargs
-                        given = [each for each in inspect.signature(function).parameters.values()
-                                 if each.kind not in (each.VAR_KEYWORD, each.VAR_POSITIONAL)]  # fmt: skip
-                        self.assertEqual([each.arg for each in arguments], [each.name for each in given], stub.name)
+    @unittest.skipUnless(importlib.util.find_spec("mypy"), "mypy is not installed")
+    def test_the_types_fit_together(self):
+        folder = pathlib.Path(octant.__file__).parent
+        with tempfile.TemporaryDirectory() as place:
+            program = pathlib.Path(place) / "program.py"
+            program.write_text(
+                "import octant\n"
+                "world = octant.World(aircraft='f15', sun_elevation_deg=25, near_detail=False)\n"
+                "eyes = world.ground.random_positions(3)\n"
+                "frames = world.render(octant.Camera(64, 48), eyes, octant.attitudes(), outputs=['rgb', 'depth_m'])\n"
+                "reveal_type(frames.depth_m)\n"
+                "pixels: int = world.boxes(octant.Camera(), eyes, octant.attitudes())[0][0].pixels\n"
+                "wrong: str = octant.envs.FollowPath().step([0, 0, 0, 0])[1]\n",
+                encoding="utf-8",
+            )
+            checked = subprocess.run(
+                [sys.executable, "-m", "mypy", "--cache-dir", place, program],
+                env={**os.environ, "MYPYPATH": str(folder.parent)}, cwd=place, capture_output=True, text=True,
+            )  # fmt: skip
+        lines = [line for line in checked.stdout.splitlines() if "error" in line or "Revealed" in line]
+        self.assertEqual(len(lines), 3, checked.stdout + checked.stderr)
+        self.assertIn("floating", lines[0])
+        self.assertIn("program.py:7: error: Incompatible types", lines[1])
 
     def test_the_package_says_that_it_is_typed(self):
         self.assertTrue((pathlib.Path(octant.__file__).parent / "py.typed").exists())

@@ -5,6 +5,7 @@ import os
 import pathlib
 import subprocess
 import tempfile
+import threading
 import unittest
 import zipfile
 
@@ -41,6 +42,26 @@ class Flights(unittest.TestCase):
         self.assertEqual(frames[0].rgb.shape, (48, 64, 3))
         self.assertFalse(np.array_equal(frames[0].rgb, frames[11].rgb))
         self.assertGreater(frames[5].timing.frame_ms, frames[5].timing.draw_ms)
+
+    def test_a_flight_is_for_one_thread(self):
+        flown = octant.fly("turn", **{**flight, "size": (640, 480), "frames": 60})
+        refused, drawn = [], []
+
+        def draw():
+            try:
+                for each in flown:
+                    drawn.append(each.number)
+            except ValueError as fault:
+                refused.append(str(fault))
+
+        threads = [threading.Thread(target=draw) for _ in range(4)]
+        for each in threads:
+            each.start()
+        for each in threads:
+            each.join()
+        self.assertEqual(drawn, sorted(set(drawn)))
+        self.assertEqual(set(refused) - {"flight: expected one thread at a time, got a second one"}, set())
+        self.assertGreater(len(refused), 0)
 
     def test_columns_have_types(self):
         for _ in octant.fly("turn", record=self.folder / "flight", **flight):

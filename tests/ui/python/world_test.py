@@ -152,6 +152,20 @@ class Settings(unittest.TestCase):
                 octant.World(**wrong)
             self.assertNotIn("\n", str(raised.exception))
 
+    def test_messages_name_keywords(self):
+        for settings, text in (
+            ({"near_detial": True}, "near_detial: expected the name of a setting, got 'near_detial'; perhaps near_detail is meant"),
+            ({"sun_elevation_deg": 120}, "sun_elevation_deg: expected"),
+            ({"visibility_m": "far"}, "visibility_m: expected"),
+            ({"shading": "flat", "smooth_share": 0.5}, "beside adapt shading, smooth_share, device_ratio or shading_rule paper"),
+        ):
+            with self.assertRaises(octant.Error) as raised:
+                octant.World(**settings)
+            self.assertIn(text, str(raised.exception))
+        with self.assertRaises(octant.Error) as raised:
+            octant.fly("turn", view="chase", look=(1, 2, 3))
+        self.assertEqual(str(raised.exception), "look: expected view free beside it, got view chase")
+
     def test_an_unreadable_file_is_named(self):
         with tempfile.TemporaryDirectory() as folder:
             file = os.path.join(folder, "broken.asc")

@@ -1,5 +1,6 @@
 #include "ui/settings/settings.h"
 #include "ui/settings/settings_check.h"
+#include "ui/settings/settings_text.h"
 
 #include <catch2/catch.hpp>
 
@@ -58,11 +59,11 @@ TEST_CASE("what is seen through is refused beside a depth buffer, a ribbon witho
 TEST_CASE("eye points are refused where the view does not take them") {
     RunSettings settings;
     settings.view.eye_m = glm::dvec3(1.0, 2.0, 3.0);
-    check_refused(settings, "--eye: expected --view tower or free beside it, got another view");
+    check_refused(settings, "--eye: expected --view tower or free beside it, got --view chase");
     settings.view.kind = scene::View::Tower;
     CHECK_NOTHROW(ui::settings::check_settings(settings));
     settings.view.look_m = settings.view.eye_m;
-    check_refused(settings, "--look: expected --view free beside it, got another view");
+    check_refused(settings, "--look: expected --view free beside it, got --view tower");
     settings.view.kind = scene::View::Free;
     check_refused(settings, "--look: expected another point than --eye, got the same");
     settings.view.look_m.reset();
@@ -72,7 +73,7 @@ TEST_CASE("eye points are refused where the view does not take them") {
 TEST_CASE("a free inset needs the free view") {
     RunSettings settings;
     settings.view.inset = scene::View::Free;
-    check_refused(settings, "--inset free: expected --view free beside it, got another view");
+    check_refused(settings, "--inset free: expected --view free beside it, got --view chase");
 }
 
 TEST_CASE("a share of smooth polygons needs hybrid shading, and its distances their order") {
@@ -82,7 +83,7 @@ TEST_CASE("a share of smooth polygons needs hybrid shading, and its distances th
     settings.shading.smooth_share = 0.5;
     check_refused(settings,
         "--shading: expected hybrid beside --adapt shading, --smooth-share, --paper-shading device-ratio or "
-        "--shading-rule paper, got another one");
+        "--shading-rule paper, got flat");
     settings.shading.kind = scene::AircraftShading::Hybrid;
     settings.shading.near_m = 5.0;
     settings.shading.far_m = 2.0;
@@ -96,14 +97,15 @@ TEST_CASE("terrain follows the frame time only where its triangles are counted")
     settings.path.terrain = "none";
     check_refused(settings, "--adapt terrain: expected ground with levels of detail, got none");
     settings.ground.lod.control = visuals::terrain::DetailControl::Damped;
-    check_refused(settings, "--adapt terrain: expected --terrain-lod screen-error or exact, got another control");
+    check_refused(settings, "--adapt terrain: expected --terrain-lod screen-error or exact, got --terrain-lod " +
+                                ui::settings::text_of(settings.ground.lod));
 }
 
 TEST_CASE("the screen error is refused beside what only the quadtree has") {
     RunSettings settings;
     settings.ground.lod.metric = visuals::terrain::GroundMetric::Midpoint;
     settings.ground.error_px = 1.0;
-    check_refused(settings, "--error-px: expected --terrain-lod screen-error, got another one");
+    check_refused(settings, "--error-px: expected --terrain-lod screen-error, got --terrain-lod exact");
     settings.ground.lod.metric = visuals::terrain::GroundMetric::ScreenError;
     CHECK_NOTHROW(ui::settings::check_settings(settings));
     settings.ground.lod.control = visuals::terrain::DetailControl::Damped;

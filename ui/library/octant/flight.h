@@ -46,7 +46,7 @@ struct FrameTiming {
 };
 
 /// Flies a path picture by picture, with the pictures and states of `octant fly` with the same settings. For one thread
-/// at a time.
+/// at a time, of the process that made it: a forked child can only destroy it.
 class Flight {
 public:
     /// Loads everything. Throws Error.

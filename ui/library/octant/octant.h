@@ -135,6 +135,8 @@ struct Camera {
 
     bool operator==(const Camera&) const = default;
 
+    /// Throws Error for a member that is out of range, as all functions do that take a camera.
+    void check() const;
     Intrinsics matrix() const; ///< `intrinsics`, or those of fov_deg
     /// The pixel of a point in camera axes of OpenCV. Nothing where no pixel can show it: behind a camera (a fisheye
     /// sees there), and beyond the radius at which the distortion folds.
@@ -221,13 +223,15 @@ struct Frames {
 /// the first pixel reaches from 0 to 1, its middle is at 0.5.
 struct Box {
     std::uint32_t object_id = 0;
-    double visible_px[4] =
-        {};                  ///< left, top, right, bottom of its visible pixels, whole numbers; 0 where there are none
-    double whole_px[4] = {}; ///< the same of its box, also outside the picture; what is behind the eye is cut off
+    /// Left, top, right, bottom of its visible pixels, whole numbers; 0 where there are none.
+    double visible_px[4] = {};
+    /// The same of its box, also outside the picture; what the lens cannot show is cut off.
+    double whole_px[4] = {};
     /// Of its box as it is drawn, world axes: over a round earth it is sunk as the ground is. Corner i has the greater
     /// x, y and z of the body axes where bits 0, 1 and 2 of i are set.
     Vec3 corners_m[8] = {};
-    /// Visible pixels over those it would have alone, outside the picture, too (as far as two pictures beyond it).
+    /// Visible pixels over those it would have alone, outside the picture, too: as far as two pictures beyond it, and
+    /// as far as the lens reaches. Of distorted pictures those outside are an area, right to about 2 %.
     double visible_share = 0.0;
     double truncation = 0.0; ///< the share of these that is outside the picture
     double distance_m = 0.0; ///< of its middle from the eye
@@ -273,7 +277,7 @@ public:
     /// Half the extent of the map, east and north.
     std::pair<double, double> half_extent_m() const;
     /// `count` positions above the map, evenly distributed over its inner 80 %, at heights above the ground between
-    /// these; the same for the same seed, and the first of many as of few.
+    /// these; the same for the same seed, and the first of many as of few. At most 100 million.
     std::vector<Vec3> random_positions(
         std::size_t count, double min_above_m, double max_above_m, std::uint64_t seed) const;
     /// Between latitude, longitude, height above datum and the local frame. Throws Error for a world that lies nowhere.
@@ -292,8 +296,9 @@ public:
     /// The same into the caller's memory.
     void render(const Camera& camera, std::span<const Pose> poses, const FrameArrays& to,
         const RenderOptions& options = {}) const;
-    /// Boxes of the objects of each picture, by ascending id: of those that are in it, seen or hidden by others.
-    /// Error for a camera with distortion. With a rolling shutter or blur they are those of the pose itself.
+    /// Boxes of the objects of each picture, by ascending id: of those that are in it, seen or hidden by others. What
+    /// is visible is what the picture's object ids show: each row at its own time, sharp at the middle of its exposure.
+    /// The whole box, its corners and its distance are those of the pose.
     std::vector<std::vector<Box>> boxes(
         const Camera& camera, std::span<const Pose> poses, const RenderOptions& options = {}) const;
 
@@ -303,7 +308,7 @@ public:
     void export_scene(const std::string& path, const Camera& camera, const Pose& pose) const;
 
 private:
-    struct Impl;
+    struct [[gnu::visibility("hidden")]] Impl;
     friend struct WorldAccess; ///< of the library itself
     [[gnu::visibility("hidden")]] World(std::shared_ptr<Impl> impl, std::nullptr_t);
 

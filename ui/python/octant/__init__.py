@@ -16,18 +16,31 @@ loading are warnings (UserWarning).
 ((1, 48, 64, 3), dtype('uint8'))
 """
 
+from __future__ import annotations
+
 import importlib
 import operator
 import os
+import re
 import struct
 import warnings
 import zlib
+from collections.abc import Iterator, Sequence
+from typing import TYPE_CHECKING, Any, Optional, Union
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 from . import _octant
 from ._octant import Box, Camera, Error, Object, classes
 from ._octant import version as __version__
+
+if TYPE_CHECKING:
+    from . import envs as envs
+    from ._recording import Recording as Recording
+
+_Path = Union[str, "os.PathLike[str]"]
+_Floats = NDArray[np.float64]
 
 __all__ = [
     "Box", "Camera", "Error", "Flight", "Frame", "Frames", "Ground", "Object", "Picture", "PilotedAircraft",
@@ -70,7 +83,7 @@ def _forms():
     return _setting_forms
 
 
-def setting_names():
+def setting_names() -> dict[str, str]:
     """The settings that World() and fly() take as keywords, with their meanings: a dictionary.
 
     A keyword may end in the unit of its value: ``visibility`` and ``visibility_m`` are the same.
@@ -89,7 +102,7 @@ def _setting_name(keyword):
     for unit in ("-deg", "-m", "-s", "-px"):
         if name.endswith(unit) and name[: -len(unit)] in _forms():
             return name[: -len(unit)]
-    raise ValueError(f"{keyword}: expected the name of a setting (octant.setting_names()), got this")
+    return name  # refused by the library, with the name that is meant
 
 
 def _words(keyword, value, form):
@@ -123,23 +136,45 @@ def _setting_words(settings):
             name = _setting_name(keyword)
             if any(name == known for known, _ in pairs):
                 raise ValueError(f"{keyword}: expected each setting once, got {name} twice")
-            pairs += [(name, word) for word in _words(keyword, value, _forms()[name])]
+            pairs += [(name, word) for word in _words(keyword, value, _forms().get(name, ""))]
     return pairs
 
 
-def _warn(notes):
+def _in_keywords(text, settings):
+    """What the library says, with keywords in place of the names of settings: those that were given, else x_y of x-y."""
+    given = {_setting_name(keyword): keyword for keyword in settings}
+    begin = re.match(r"[a-z0-9-]+(?=:)", text)
+    if begin and begin[0] in given:
+        text = given[begin[0]] + text[begin.end() :]
+    keywords = {name: name.replace("-", "_") for name in _forms() if "-" in name}
+    keywords.update((name, keyword) for name, keyword in given.items() if "-" in name)
+    names = "|".join(re.escape(name) for name in sorted(keywords, key=len, reverse=True))
+    return re.sub(rf"(?<![\w/.-])({names})(?![\w/.-])", lambda found: keywords[found[0]], text)
+
+
+def _load(function, settings, *arguments, stacklevel=3):
+    """What a function of the library loads by settings. Its notes become warnings, at 3 of the caller's caller."""
+    try:
+        loaded, notes = function(*arguments)
+    except Error as fault:
+        raise Error(_in_keywords(str(fault), settings)) from None
     for note in notes:
-        warnings.warn(note, UserWarning, stacklevel=3)
+        warnings.warn(_in_keywords(note, settings), UserWarning, stacklevel=stacklevel)
+    return loaded
 
 
 # Attitudes and arrays.
 
 
-def _numbers(name, value):
+def _array(name, value):
     try:
-        array = np.asarray(value)
+        return np.asarray(value)
     except ValueError as fault:
-        raise ValueError(f"{name}: expected an array of numbers, got lists of different lengths") from fault
+        raise ValueError(f"{name}: expected an array, got lists of different lengths") from fault
+
+
+def _numbers(name, value):
+    array = _array(name, value)
     if array.dtype.kind not in "fiu":
         raise ValueError(f"{name}: expected an array of numbers, got values of type {array.dtype}")
     return array.astype(np.float64)
@@ -156,7 +191,10 @@ def _whole(name, value, least=0, most=2**63 - 1):
 
 
 def _broadcast(names, values):
-    arrays = [_numbers(name, value) for name, value in zip(names, values)]
+    return _together(names, [_numbers(name, value) for name, value in zip(names, values)])
+
+
+def _together(names, arrays):
     try:
         return np.broadcast_arrays(*arrays)
     except ValueError as fault:
@@ -172,12 +210,17 @@ def _rows(name, value, width):
     return array
 
 
+def _row_count(name, value):
+    array = _numbers(name, value)
+    return array.shape[0] if array.ndim > 1 else 1
+
+
 def _by_row(function, name, value, width, result_width):
     rows = _rows(name, value, width)
     return function(rows.reshape(-1, width)).reshape(rows.shape[:-1] + (result_width,))
 
 
-def attitudes(heading_deg=0.0, pitch_deg=0.0, bank_deg=0.0):
+def attitudes(heading_deg: ArrayLike = 0.0, pitch_deg: ArrayLike = 0.0, bank_deg: ArrayLike = 0.0) -> _Floats:
     """Attitudes of headings (clockwise from north), pitch (nose up) and bank (to the right), in degrees.
 
     The arrays are broadcast against each other: shape (...) gives (..., 4) float64, w, x, y, z.
@@ -191,7 +234,7 @@ def attitudes(heading_deg=0.0, pitch_deg=0.0, bank_deg=0.0):
     return _octant.attitudes(flat.reshape(-1, 3)).reshape(flat.shape[:-1] + (4,))
 
 
-def look_at(eye, target):
+def look_at(eye: ArrayLike, target: ArrayLike) -> _Floats:
     """Attitudes of cameras at `eye` that look at `target`, the horizon level; north is up in vertical looks.
 
     eye, target: (..., 3), metres, broadcast against each other. Returns (..., 4) float64.
@@ -200,11 +243,11 @@ def look_at(eye, target):
     >>> bool(abs(octant.look_at([0, 0, 0], [0, 5, 0]) - octant.attitudes(heading_deg=0)).max() < 1e-12)
     True
     """
-    eye, target = np.broadcast_arrays(_rows("eye", eye, 3), _rows("target", target, 3))
-    return _octant.look_at(eye.reshape(-1, 3), target.reshape(-1, 3)).reshape(eye.shape[:-1] + (4,))
+    eyes, targets = _together(("eye", "target"), [_rows("eye", eye, 3), _rows("target", target, 3)])
+    return _octant.look_at(eyes.reshape(-1, 3), targets.reshape(-1, 3)).reshape(eyes.shape[:-1] + (4,))
 
 
-def to_opencv(attitude):
+def to_opencv(attitude: ArrayLike) -> _Floats:
     """The same orientations for cameras with OpenCV's axes (x right, y down, z forward): camera to world.
 
     attitude: (..., 4). Returns (..., 4) float64.
@@ -217,7 +260,7 @@ def to_opencv(attitude):
     return _by_row(_octant.to_opencv, "attitude", attitude, 4, 4)
 
 
-def to_opengl(attitude):
+def to_opengl(attitude: ArrayLike) -> _Floats:
     """The same orientations for cameras with OpenGL's axes (x right, y up, z backward): camera to world.
 
     attitude: (..., 4). Returns (..., 4) float64.
@@ -225,12 +268,12 @@ def to_opengl(attitude):
     return _by_row(_octant.to_opengl, "attitude", attitude, 4, 4)
 
 
-def from_opencv(camera_to_world):
+def from_opencv(camera_to_world: ArrayLike) -> _Floats:
     """Attitudes of cameras whose axes are OpenCV's. camera_to_world: (..., 4). Returns (..., 4) float64."""
     return _by_row(_octant.from_opencv, "camera_to_world", camera_to_world, 4, 4)
 
 
-def from_opengl(camera_to_world):
+def from_opengl(camera_to_world: ArrayLike) -> _Floats:
     """Attitudes of cameras whose axes are OpenGL's. camera_to_world: (..., 4). Returns (..., 4) float64."""
     return _by_row(_octant.from_opengl, "camera_to_world", camera_to_world, 4, 4)
 
@@ -247,31 +290,39 @@ class States:
 
     __slots__ = ("position_m", "attitude", "velocity_mps", "time_s", "load_factor", "is_present", "kind")
 
+    position_m: _Floats
+    attitude: _Floats
+    velocity_mps: _Floats
+    time_s: _Floats
+    load_factor: _Floats
+    is_present: NDArray[np.bool_]
+    kind: Optional[tuple[str, ...]]
+
     _widths = {"position_m": 3, "attitude": 4, "velocity_mps": 3, "time_s": 1, "load_factor": 1, "is_present": 1}
 
-    def __init__(self, arrays, kind=None):
+    def __init__(self, arrays: dict[str, NDArray[Any]], kind: Optional[tuple[str, ...]] = None) -> None:
         for name in self._widths:
             setattr(self, name, arrays[name])
         self.kind = kind
 
     @property
-    def shape(self):
+    def shape(self) -> tuple[int, ...]:
         """The shape of the arrays, without the axis of a vector's parts."""
         return self.position_m.shape[:-1]
 
-    def __len__(self):
+    def __len__(self) -> int:
         if not self.shape:
             raise TypeError("a single state has no len()")
         return self.shape[0]
 
-    def __getitem__(self, index):
+    def __getitem__(self, index: Any) -> States:
         if not self.shape:
             raise IndexError("a single state has no parts")
         kind = self.kind[index] if self.kind is not None and len(self.shape) == 1 else None
         kind = (kind,) if isinstance(kind, str) else kind
         return States({name: getattr(self, name)[index] for name in self._widths}, kind)
 
-    def __iter__(self):
+    def __iter__(self) -> Iterator[States]:
         return (self[i] for i in range(len(self)))
 
     def __repr__(self):
@@ -282,8 +333,15 @@ class States:
 
 
 def states(
-    position_m, attitude=(1.0, 0.0, 0.0, 0.0), kind=None, *, velocity_mps=0.0, time_s=0.0, load_factor=1.0, is_present=True
-):
+    position_m: ArrayLike,
+    attitude: ArrayLike = (1.0, 0.0, 0.0, 0.0),
+    kind: Union[str, Sequence[str], None] = None,
+    *,
+    velocity_mps: ArrayLike = 0.0,
+    time_s: ArrayLike = 0.0,
+    load_factor: ArrayLike = 1.0,
+    is_present: ArrayLike = True,
+) -> States:
     """States of aircraft, for World.set_states() and render(states=).
 
     position_m: (a, 3) for a aircraft, (n, a, 3) for n pictures of them, metres. attitude: (..., 4). velocity_mps:
@@ -295,11 +353,11 @@ def states(
     >>> octant.states(position_m=[[0, 0, 500], [50, 0, 500]], kind=["f15", "f15"])
     <octant.States of shape (2,)>
     """
-    position_m = _rows("position_m", position_m, 3)
-    shape = position_m.shape[:-1]
+    positions = _rows("position_m", position_m, 3)
+    shape = positions.shape[:-1]
 
     def spread(name, value, width):
-        array = np.asarray(value) if name == "is_present" else _numbers(name, value)
+        array = _array(name, value) if name == "is_present" else _numbers(name, value)
         if array.dtype.kind not in "bfiu":
             raise ValueError(f"{name}: expected True or False, got values of type {array.dtype}")
         to = shape + ((width,) if width > 1 else ())
@@ -309,7 +367,7 @@ def states(
             raise ValueError(f"{name}: expected an array of shape {to}, got {array.shape}") from fault
 
     arrays = {
-        "position_m": position_m,
+        "position_m": positions,
         "attitude": spread("attitude", attitude, 4),
         "velocity_mps": spread("velocity_mps", velocity_mps, 3),
         "time_s": spread("time_s", time_s, 1),
@@ -317,8 +375,9 @@ def states(
         "is_present": spread("is_present", is_present, 1),
     }
     for name in ("position_m", "attitude", "velocity_mps", "time_s", "load_factor"):
-        if not np.isfinite(arrays[name]).all():
-            raise ValueError(f"{name}: expected finite numbers, got others")
+        wrong = arrays[name][~np.isfinite(arrays[name])]
+        if wrong.size:
+            raise ValueError(f"{name}: expected finite numbers, got {wrong[0]}")
     if kind is not None:
         kind = (kind,) * (shape[-1] if shape else 1) if isinstance(kind, str) else tuple(kind)
         if len(kind) != (shape[-1] if shape else 1):
@@ -340,13 +399,22 @@ class Frames:
     AttributeError.
     """
 
-    def __init__(self, arrays):
+    rgb: NDArray[Any]
+    depth_m: NDArray[np.float32]
+    class_id: NDArray[np.uint8]
+    object_id: NDArray[np.uint32]
+    normal: NDArray[np.float32]
+    flow_px: NDArray[np.float32]
+    coverage: NDArray[np.float32]
+
+    def __init__(self, arrays: dict[str, NDArray[Any]]) -> None:
         self._arrays = dict(arrays)
 
     @classmethod
-    def empty(cls, camera, count, outputs=("rgb",)):
+    def empty(cls, camera: Camera, count: int, outputs: Union[str, Sequence[str]] = ("rgb",)) -> Frames:
         """Arrays for `count` pictures of a camera, for render(out=)."""
         arrays = {}
+        count = _whole("count", count)
         for name in _checked_outputs(outputs):
             dtype, values = _formats[name]
             if name == "rgb" and camera.bits == 16:
@@ -355,16 +423,16 @@ class Frames:
         return cls(arrays)
 
     @property
-    def outputs(self):
+    def outputs(self) -> tuple[str, ...]:
         """The names of its arrays."""
         return tuple(self._arrays)
 
     @property
-    def arrays(self):
+    def arrays(self) -> dict[str, NDArray[Any]]:
         """Its arrays by name: a dictionary."""
         return dict(self._arrays)
 
-    def __len__(self):
+    def __len__(self) -> int:
         return len(next(iter(self._arrays.values())))
 
     def __getattr__(self, name):
@@ -392,20 +460,22 @@ def _checked_outputs(outputs):
 class Ground:
     """The ground of a world: heights and places."""
 
-    def __init__(self, world):
+    def __init__(self, world: World) -> None:
         self._of = world
 
     @property
-    def half_extent_m(self):
+    def half_extent_m(self) -> tuple[float, float]:
         """Half the extent of the map, east and north, metres."""
         return self._of._opened().half_extent_m()
 
-    def height_m(self, x_m, y_m):
+    def height_m(self, x_m: ArrayLike, y_m: ArrayLike) -> _Floats:
         """Heights of the ground above datum, metres; NaN outside the map. The arrays are broadcast: (...) float64."""
-        x_m, y_m = _broadcast(("x_m", "y_m"), (x_m, y_m))
-        return self._of._opened().height_m(x_m.ravel(), y_m.ravel()).reshape(x_m.shape)
+        east, north = _broadcast(("x_m", "y_m"), (x_m, y_m))
+        return self._of._opened().height_m(east.ravel(), north.ravel()).reshape(east.shape)
 
-    def random_positions(self, count, above_ground_m=(30.0, 300.0), seed=0):
+    def random_positions(
+        self, count: int, above_ground_m: tuple[float, float] = (30.0, 300.0), seed: int = 0
+    ) -> _Floats:
         """Positions above the inner 80 % of the map: (count, 3) float64, metres.
 
         above_ground_m: the least and greatest height above the ground. The same for the same seed, and the first of
@@ -413,16 +483,14 @@ class Ground:
         """
         heights = _numbers("above_ground_m", above_ground_m)
         if heights.shape != (2,) or not np.isfinite(heights).all() or heights[0] > heights[1]:
-            raise ValueError(f"above_ground_m: expected the least and the greatest height, got {above_ground_m!r}")
+            raise ValueError(f"above_ground_m: expected the least and the greatest height, got {heights.tolist()}")
         opened = self._of._opened()
         count, seed = _whole("count", count), _whole("seed", seed)
         return opened.random_positions(count, float(heights[0]), float(heights[1]), seed)
 
 
 class World:
-    """World(terrain="hills", aircraft=(), *, sun_elevation_deg=None, triangles=None, **settings)
-
-    Terrain, things on it, aircraft and light, loaded.
+    """Terrain, things on it, aircraft and light, loaded.
 
     terrain: hills, canyon, background60, none, or a map file. aircraft: names or files, one for each aircraft.
     triangles: of the ground in each picture. settings: all others of ``octant fly`` by keyword, as
@@ -435,34 +503,41 @@ class World:
     ['f15']
     """
 
-    def __init__(self, terrain="hills", aircraft=(), *, sun_elevation_deg=None, triangles=None, **settings):
+    def __init__(
+        self,
+        terrain: _Path = "hills",
+        aircraft: Union[_Path, Sequence[_Path]] = (),
+        *,
+        sun_elevation_deg: Optional[float] = None,
+        triangles: Optional[int] = None,
+        **settings: Any,
+    ) -> None:
         aircraft = [aircraft] if isinstance(aircraft, (str, os.PathLike)) else list(aircraft)
         named = {"sun_elevation_deg": sun_elevation_deg, "triangles": triangles}
         self._made_of = (os.fspath(terrain), [os.fspath(each) for each in aircraft], {**named, **settings})
-        self._load(None)
+        self._begin(None)
 
-    def _load(self, shared):
+    def _begin(self, shared: Any) -> None:
         terrain, aircraft, settings = self._made_of
-        self._world, notes = _octant.load(terrain, aircraft, _setting_words(settings), shared)
-        self._objects = None
-        _warn(notes)
+        self._world = _load(_octant.load, settings, terrain, aircraft, _setting_words(settings), shared, stacklevel=4)
+        self._objects: Optional[list[Object]] = None
 
     def _opened(self):
         if self._world.is_closed:
             raise ValueError("world: expected an open world, got a closed one")
         return self._world
 
-    def close(self):
+    def close(self) -> None:
         """Gives the world up. Calls that run in other threads end in order; later ones are ValueErrors."""
         self._world.close()
 
-    def __enter__(self):
+    def __enter__(self) -> World:
         return self
 
-    def __exit__(self, *_):
+    def __exit__(self, *_: object) -> None:
         self.close()
 
-    def copy(self):
+    def copy(self) -> World:
         """A world that shares everything with this one but the states of aircraft."""
         copy = World.__new__(World)
         copy._world = self._opened().copy()
@@ -472,7 +547,7 @@ class World:
 
     __copy__ = copy
 
-    def with_settings(self, **changes):
+    def with_settings(self, **changes: Any) -> World:
         """A world of the same terrain and aircraft under settings of which some are others, with the states that it
         begins with. Takes what World() takes by keyword. What both have in common is shared and not loaded again: under
         another sun heights, roads and aircraft, which leaves some hundredths of a second and 5 MB.
@@ -484,17 +559,17 @@ class World:
         terrain, aircraft, settings = self._made_of
         other = World.__new__(World)
         other._made_of = (terrain, aircraft, {**settings, **changes})
-        other._load(self._opened())
+        other._begin(self._opened())
         return other
 
     @property
-    def ground(self):
+    def ground(self) -> Ground:
         """Heights and places: octant.Ground."""
         self._opened()
         return Ground(self)
 
     @property
-    def objects(self):
+    def objects(self) -> list[Object]:
         """The things that object ids name: a list of octant.Object; id i is objects[i - 1]."""
         opened = self._opened()
         if self._objects is None:
@@ -502,11 +577,11 @@ class World:
         return list(self._objects)
 
     @property
-    def states(self):
+    def states(self) -> States:
         """Where the aircraft are: octant.States of shape (aircraft,)."""
         return States(self._opened().states(), tuple(each.kind for each in self.objects))
 
-    def set_states(self, states):
+    def set_states(self, states: States) -> None:
         """Moves the aircraft. Those before are where they were in the previous picture (flow_px).
 
         states: octant.states(...) of shape (a,). With kinds, each state is that of the next aircraft of its kind;
@@ -554,22 +629,22 @@ class World:
 
     def render(
         self,
-        camera,
-        eye,
-        look,
+        camera: Camera,
+        eye: ArrayLike,
+        look: ArrayLike,
         *,
-        previous_eye=None,
-        previous_look=None,
-        velocity_mps=None,
-        turn_rate_degps=None,
-        outputs=None,
-        out=None,
-        threads=0,
-        states=None,
-        previous_states=None,
-        seed=0,
-        first_index=0,
-    ):
+        previous_eye: Optional[ArrayLike] = None,
+        previous_look: Optional[ArrayLike] = None,
+        velocity_mps: Optional[ArrayLike] = None,
+        turn_rate_degps: Optional[ArrayLike] = None,
+        outputs: Union[str, Sequence[str], None] = None,
+        out: Optional[Frames] = None,
+        threads: int = 0,
+        states: Optional[States] = None,
+        previous_states: Optional[States] = None,
+        seed: int = 0,
+        first_index: int = 0,
+    ) -> Frames:
         """Draws n pictures and returns octant.Frames. Lets go of Python's lock; Ctrl-C ends it between pictures.
 
         camera: octant.Camera. eye: (n, 3) or (3,), metres. look: (n, 4) or (4,), attitudes. previous_eye,
@@ -585,11 +660,11 @@ class World:
         if not isinstance(camera, Camera):
             raise ValueError(f"camera: expected an octant.Camera, got {type(camera).__name__}")
         if out is None:
-            count = max(np.atleast_2d(eye).shape[0], np.atleast_2d(look).shape[0])
+            count = max(_row_count("eye", eye), _row_count("look", look))
             out = Frames.empty(camera, count, ("rgb",) if outputs is None else outputs)
         elif not isinstance(out, Frames):
             raise ValueError(f"out: expected octant.Frames, got {type(out).__name__}")
-        arrays = out._arrays
+        arrays = out.arrays
         if outputs is not None:
             missing = [name for name in _checked_outputs(outputs) if name not in arrays]
             if missing:
@@ -612,15 +687,37 @@ class World:
         )
         return out
 
-    def boxes(self, camera, eye, look, *, threads=0, states=None):
-        """Boxes of the objects in each of n pictures: a list of lists of octant.Box. Arguments as of render()."""
+    def boxes(
+        self,
+        camera: Camera,
+        eye: ArrayLike,
+        look: ArrayLike,
+        *,
+        velocity_mps: Optional[ArrayLike] = None,
+        turn_rate_degps: Optional[ArrayLike] = None,
+        threads: int = 0,
+        states: Optional[States] = None,
+    ) -> list[list[Box]]:
+        """Boxes of the objects in each of n pictures: a list of lists of octant.Box. Arguments as of render().
+
+        What is visible is what render() shows as object_id, through a distorted lens and a rolling shutter, too; the
+        whole box, its corners and its distance are those of eye and look.
+        """
         if not isinstance(camera, Camera):
             raise ValueError(f"camera: expected an octant.Camera, got {type(camera).__name__}")
         opened = self._opened()
         threads = _whole("threads", threads, most=1024)
-        return opened.boxes(camera, eye, look, threads=threads, states=self._ordered("states", states))
+        return opened.boxes(
+            camera,
+            eye,
+            look,
+            velocity_mps=velocity_mps,
+            turn_rate_degps=turn_rate_degps,
+            threads=threads,
+            states=self._ordered("states", states),
+        )
 
-    def local(self, latitude_deg, longitude_deg, height_m=0.0):
+    def local(self, latitude_deg: ArrayLike, longitude_deg: ArrayLike, height_m: ArrayLike = 0.0) -> _Floats:
         """Positions in the world of places on the earth: (..., 3) float64, metres. The arrays are broadcast.
 
         height_m: above datum. Raises octant.Error for a world that lies nowhere.
@@ -629,21 +726,27 @@ class World:
         place = np.stack(_broadcast(names, (latitude_deg, longitude_deg, height_m)), axis=-1)
         return self._opened().local(place.reshape(-1, 3)).reshape(place.shape)
 
-    def geodetic(self, position_m):
+    def geodetic(self, position_m: ArrayLike) -> _Floats:
         """Latitude and longitude in degrees and height above datum of positions: (..., 3) float64.
 
         position_m: (..., 3). Raises octant.Error for a world that lies nowhere.
         """
         return _by_row(self._opened().geodetic, "position_m", position_m, 3, 3)
 
-    def path_states(self, rate_hz=20.0):
+    def path_states(self, rate_hz: float = 20.0) -> States:
         """The path of the settings (path=, place=, heading_deg=) over the ground: octant.States of shape (n,).
 
         One each 1 / rate_hz seconds from its start, and the one at its end.
         """
         return States(self._opened().path_states(rate_hz))
 
-    def export(self, path, camera=None, eye=None, look=None):
+    def export(
+        self,
+        path: _Path,
+        camera: Optional[Camera] = None,
+        eye: Optional[ArrayLike] = None,
+        look: Optional[ArrayLike] = None,
+    ) -> None:
         """Writes the triangles that a picture shows as OBJ: a group for each class and object.
 
         The ground is refined for the picture. Without camera, eye and look: all of the map, from above its centre.
@@ -665,7 +768,13 @@ class Timing:
 
     __slots__ = ("frame_ms", "sim_ms", "plan_ms", "draw_ms", "read_ms")
 
-    def __init__(self, values):
+    frame_ms: float
+    sim_ms: float
+    plan_ms: float
+    draw_ms: float
+    read_ms: float
+
+    def __init__(self, values: dict[str, float]) -> None:
         for name in self.__slots__:
             setattr(self, name, values[name])
 
@@ -678,7 +787,13 @@ class Frame:
 
     __slots__ = ("number", "time_s", "rgb", "states", "timing")
 
-    def __init__(self, flight):
+    number: int
+    time_s: float
+    rgb: NDArray[np.uint8]
+    states: States
+    timing: Timing
+
+    def __init__(self, flight: Any) -> None:
         self.number = flight.frame
         self.time_s = flight.time_s
         self.rgb = flight.rgb()
@@ -695,18 +810,18 @@ class Flight:
     len() is the number of frames of the whole flight.
     """
 
-    def __init__(self, path, record, settings):
-        pairs = _setting_words({"path": path, **settings})
-        self._flight, notes = _octant.load_flight(pairs, "" if record is None else os.fspath(record))
-        _warn(notes)
+    def __init__(self, path: _Path, record: Optional[_Path], settings: dict[str, Any]) -> None:
+        settings = {"path": path, **settings}
+        folder = "" if record is None else os.fspath(record)
+        self._flight = _load(_octant.load_flight, settings, _setting_words(settings), folder)
 
-    def __len__(self):
+    def __len__(self) -> int:
         return self._flight.frame_count if self._flight is not None else 0
 
-    def __iter__(self):
+    def __iter__(self) -> Iterator[Frame]:
         return self
 
-    def __next__(self):
+    def __next__(self) -> Frame:
         if self._flight is None:
             raise StopIteration
         if not self._flight.next():
@@ -714,20 +829,20 @@ class Flight:
             raise StopIteration
         return Frame(self._flight)
 
-    def close(self):
+    def close(self) -> None:
         """Ends the flight; a recording then gets its report."""
         if self._flight is not None:
             flight, self._flight = self._flight, None
             flight.finish()
 
-    def __enter__(self):
+    def __enter__(self) -> Flight:
         return self
 
-    def __exit__(self, *_):
+    def __exit__(self, *_: object) -> None:
         self.close()
 
 
-def fly(path="straight", *, record=None, **settings):
+def fly(path: _Path = "straight", *, record: Optional[_Path] = None, **settings: Any) -> Flight:
     """Flies a path and gives its frames one after the other: octant.Flight, for a loop.
 
     path: straight, jinking, pop-up, turn, a path file or a recorded track. record: the folder of a recording, which
@@ -743,7 +858,7 @@ def fly(path="straight", *, record=None, **settings):
     return Flight(path, record, settings)
 
 
-def report(recordings, out):
+def report(recordings: Union[_Path, Sequence[_Path]], out: _Path) -> None:
     """Writes one page of one recording or several, as ``octant report`` does. Raises octant.Error.
 
     recordings: folders, packed recordings or captured frame times. out: the HTML file.
@@ -752,7 +867,7 @@ def report(recordings, out):
     _octant.write_report([os.fspath(each) for each in recordings], os.fspath(out))
 
 
-def recording(path):
+def recording(path: _Path) -> Recording:
     """A recording of ``octant fly --record`` or fly(record=): octant.Recording. path: its folder or packed file.
 
     Raises octant.Error where there is none, with the file and line of what is wrong.
@@ -769,30 +884,30 @@ class PilotedAircraft:
     that has no flight model.
     """
 
-    def __init__(self, aircraft, start):
+    def __init__(self, aircraft: str, start: States) -> None:
         self._aircraft = _octant.PilotedAircraft(aircraft, start)
 
-    def advance(self, roll, pitch, throttle, yaw, steps=1):
+    def advance(self, roll: float, pitch: float, throttle: float, yaw: float, steps: int = 1) -> None:
         """Flies on for some steps of 1/120 s. roll, pitch, yaw: -1 to 1; throttle (or collective): 0 to 1."""
         self._aircraft.advance((roll, pitch, throttle, yaw), _whole("steps", steps, most=2**31 - 1))
 
     @property
-    def state(self):
+    def state(self) -> States:
         """Where it is: octant.States of a single state."""
         return States(self._aircraft.state())[0]
 
     @property
-    def trim_throttle(self):
+    def trim_throttle(self) -> float:
         """The throttle that holds speed and height from the start on with centred controls."""
         return self._aircraft.trim_throttle
 
     @property
-    def is_stalled(self):
+    def is_stalled(self) -> bool:
         """Whether more lift is asked for than the wing has."""
         return self._aircraft.is_stalled
 
     @property
-    def is_at_limit(self):
+    def is_at_limit(self) -> bool:
         """Whether load factor, roll rate, bank, speed or climb is held at its limit."""
         return self._aircraft.is_at_limit
 
@@ -805,8 +920,10 @@ class Picture:
     b'\\x89PNG'
     """
 
-    def __init__(self, array):
-        self.array = np.ascontiguousarray(array)
+    array: NDArray[np.uint8]
+
+    def __init__(self, array: ArrayLike) -> None:
+        self.array = np.ascontiguousarray(_array("array", array))
         is_picture = self.array.ndim == 2 or self.array.ndim == 3 and self.array.shape[2] == 3
         if self.array.dtype != np.uint8 or not is_picture or self.array.size == 0:
             raise ValueError(
@@ -814,7 +931,7 @@ class Picture:
                 f"got {self.array.shape} of {self.array.dtype}"
             )
 
-    def png(self):
+    def png(self) -> bytes:
         """The bytes of a PNG file."""
         height, width = self.array.shape[:2]
         colour_type = 2 if self.array.ndim == 3 else 0
@@ -829,7 +946,7 @@ class Picture:
             b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", header) + chunk(b"IDAT", zlib.compress(unfiltered)) + chunk(b"IEND", b"")
         )
 
-    def save(self, path):
+    def save(self, path: _Path) -> None:
         """Writes a PNG file."""
         with open(path, "wb") as file:
             file.write(self.png())

@@ -1,10 +1,14 @@
 """What a flight left behind: the files of a recording as arrays (octant.recording)."""
 
+from __future__ import annotations
+
 import json
 import os
 import zipfile
+from typing import Any, Union
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ._octant import Error
 
@@ -49,12 +53,15 @@ class Recording:
     pandas.DataFrame(recording.frames) is a table; the columns of frames are those of ``frames.csv``.
     """
 
-    def __init__(self, path):
+    path: str
+    run: dict[str, Any]
+
+    def __init__(self, path: Union[str, "os.PathLike[str]"]) -> None:
         self.path = os.fspath(path)
         self.run = self._run()
         if self.run.get("format") != "octant recording":
             raise Error(f"{self.path}: expected a recording of octant fly, got another folder or file")
-        self._tables = {}
+        self._tables: dict[str, dict[str, NDArray[Any]]] = {}
 
     def _read(self, name):
         try:
@@ -87,17 +94,17 @@ class Recording:
         return self._tables[name]
 
     @property
-    def frames(self):
+    def frames(self) -> dict[str, NDArray[Any]]:
         """The columns of frames.csv, a row for each frame. Times in ms are wall time; hashes are text."""
         return self._columns("frames.csv")
 
     @property
-    def track(self):
+    def track(self) -> dict[str, NDArray[Any]]:
         """The columns of track.csv: the flight as a path."""
         return self._columns("track.csv")
 
     @property
-    def counters(self):
+    def counters(self) -> dict[str, NDArray[Any]]:
         """The columns of counters.csv: what the kernel counted in each frame."""
         return self._columns("counters.csv")
 

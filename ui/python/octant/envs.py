@@ -10,11 +10,16 @@
 (True, False, False)
 """
 
+from __future__ import annotations
+
 import math
 import threading
 import weakref
+from collections.abc import Callable, Sequence
+from typing import Any, Optional, Union
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 import octant
 
@@ -40,18 +45,23 @@ class Space:
     ((4,), False)
     """
 
-    def __init__(self, shape, dtype, low, high):
+    shape: tuple[int, ...]
+    dtype: np.dtype[Any]
+    low: NDArray[Any]
+    high: NDArray[Any]
+
+    def __init__(self, shape: Sequence[int], dtype: Any, low: float, high: float) -> None:
         self.shape = tuple(shape)
         self.dtype = np.dtype(dtype)
         self.low = np.full(self.shape, low, self.dtype)
         self.high = np.full(self.shape, high, self.dtype)
         self._random = np.random.default_rng()
 
-    def seed(self, seed):
+    def seed(self, seed: int) -> None:
         """Begins the samples anew; the same seed gives the same samples."""
         self._random = np.random.default_rng(seed)
 
-    def sample(self, seed=None):
+    def sample(self, seed: Optional[int] = None) -> NDArray[Any]:
         """An array, evenly distributed; bounds that are infinite count as -1e3 and 1e3. With a seed always the same."""
         if seed is not None:
             self.seed(seed)
@@ -61,12 +71,12 @@ class Space:
             return self._random.integers(low.astype(np.int64), high.astype(np.int64), endpoint=True).astype(self.dtype)
         return self._random.uniform(low, high).astype(self.dtype)
 
-    def contains(self, value):
+    def contains(self, value: ArrayLike) -> bool:
         """Whether an array is one of these."""
         value = np.asarray(value)
         return value.shape == self.shape and bool((value >= self.low).all() and (value <= self.high).all())
 
-    def __contains__(self, value):
+    def __contains__(self, value: ArrayLike) -> bool:
         return self.contains(value)
 
     def __eq__(self, other):
@@ -77,11 +87,16 @@ class Space:
             and np.array_equal(self.high, other.high)
         )
 
-    __hash__ = None
+    __hash__ = None  # type: ignore[assignment]
 
     def __repr__(self):
         low, high = (self.low.min(), self.high.max()) if self.low.size else ("", "")
         return f"Space({self.shape}, {self.dtype}, {low}, {high})"
+
+
+_Observation = Union[NDArray[Any], dict[str, NDArray[Any]]]
+_Info = dict[str, Any]
+_Space = Union[Space, dict[str, Space]]
 
 
 def _observation_space(camera, outputs, count=None):
@@ -96,7 +111,7 @@ def _observation_space(camera, outputs, count=None):
     return spaces[outputs[0]] if len(outputs) == 1 else spaces
 
 
-_worlds = weakref.WeakValueDictionary()
+_worlds: weakref.WeakValueDictionary[str, octant.World] = weakref.WeakValueDictionary()
 _worlds_lock = threading.Lock()
 
 
@@ -133,24 +148,30 @@ class FollowPath:
     its point, body axes forward, right, down; path_speed_mps; trim_throttle, as an action.
     """
 
-    metadata = {"render_modes": ["rgb_array"]}
+    metadata: dict[str, Any] = {"render_modes": ["rgb_array"]}
     render_mode = "rgb_array"
     spec = None
+    camera: octant.Camera
+    outputs: tuple[str, ...]
+    world: octant.World
+    step_s: float
+    observation_space: _Space
+    action_space: Space
 
     def __init__(
         self,
-        path="turn",
-        aircraft="500md",
-        camera=None,
-        terrain="hills",
+        path: str = "turn",
+        aircraft: str = "500md",
+        camera: Optional[octant.Camera] = None,
+        terrain: str = "hills",
         *,
-        view="nose",
-        outputs=("rgb",),
-        step_s=0.1,
-        start_error_m=5.0,
-        threads=0,
-        **settings,
-    ):
+        view: str = "nose",
+        outputs: Union[str, Sequence[str]] = ("rgb",),
+        step_s: float = 0.1,
+        start_error_m: float = 5.0,
+        threads: int = 0,
+        **settings: Any,
+    ) -> None:
         if view not in ("nose", "chase"):
             raise ValueError(f"view: expected nose or chase, got {view!r}")
         self._steps = round(step_s * octant._octant.steps_per_second)
@@ -290,34 +311,34 @@ class FollowPath:
 
     # The interface of Gymnasium.
 
-    def reset(self, *, seed=None, options=None):
+    def reset(self, *, seed: Optional[int] = None, options: Any = None) -> tuple[_Observation, _Info]:
         """Begins an episode at the path's start. Returns the observation and info. options are not used."""
         info = self._begin(seed)
         return self._draw(), info
 
-    def step(self, action):
+    def step(self, action: ArrayLike) -> tuple[_Observation, float, bool, bool, _Info]:
         """Flies one step. Returns observation, reward, terminated, truncated, info. Raises ValueError."""
         reward, terminated, truncated, info = self._move(action)
         return self._draw(), reward, terminated, truncated, info
 
-    def render(self):
+    def render(self) -> NDArray[Any]:
         """The picture that the camera sees, (height, width, 3)."""
         eye, look = self._pose()
         return self.world.render(self.camera, eye, look, threads=self._threads).rgb[0]
 
-    def close(self):
+    def close(self) -> None:
         """Gives up its world; others that share it go on."""
         self.world.close()
 
     @property
-    def unwrapped(self):
+    def unwrapped(self) -> FollowPath:
         """Itself."""
         return self
 
-    def __enter__(self):
+    def __enter__(self) -> FollowPath:
         return self
 
-    def __exit__(self, *_):
+    def __exit__(self, *_: object) -> None:
         self.close()
 
 
@@ -349,7 +370,14 @@ class Batch:
     reward is 0).
     """
 
-    def __init__(self, make, count):
+    envs: list[FollowPath]
+    num_envs: int
+    single_observation_space: _Space
+    single_action_space: Space
+    observation_space: _Space
+    action_space: Space
+
+    def __init__(self, make: Callable[[], FollowPath], count: int) -> None:
         if count < 1:
             raise ValueError(f"count: expected 1 or more, got {count}")
         self.envs = [make() for _ in range(count)]
@@ -364,7 +392,7 @@ class Batch:
         self.action_space = Space((count, 4), np.float32, -1, 1)
         self._ended = np.zeros(count, bool)
         # One call of render() for each world; environments of the same settings share one.
-        self._groups = {}
+        self._groups: dict[int, list[int]] = {}
         for place, each in enumerate(self.envs):
             self._groups.setdefault(id(each._shared), []).append(place)
 
@@ -393,42 +421,51 @@ class Batch:
     def _stacked(infos):
         return {name: np.stack([np.asarray(info[name]) for info in infos]) for name in infos[0]}
 
-    def reset(self, *, seed=None, options=None):
+    def reset(
+        self, *, seed: Union[int, Sequence[int], None] = None, options: Any = None
+    ) -> tuple[_Observation, _Info]:
         """Begins all episodes, those of environment i with seed + i (or with seed[i]). Returns observations, info."""
-        seeds = [None] * self.num_envs if seed is None else seed
-        seeds = [seed + i for i in range(self.num_envs)] if isinstance(seeds, (int, np.integer)) else list(seeds)
+        seeds: list[Optional[int]] = [None] * self.num_envs
+        if isinstance(seed, (int, np.integer)):
+            seeds = [seed + i for i in range(self.num_envs)]
+        elif seed is not None:
+            seeds = list(seed)
         if len(seeds) != self.num_envs:
             raise ValueError(f"seed: expected {self.num_envs} seeds, got {len(seeds)}")
-        infos = [each._begin(seed) for each, seed in zip(self.envs, seeds)]
+        infos = [each._begin(one) for each, one in zip(self.envs, seeds)]
         self._ended[:] = False
         return self._draw(), self._stacked(infos)
 
-    def step(self, actions):
+    def step(
+        self, actions: ArrayLike
+    ) -> tuple[_Observation, NDArray[np.float64], NDArray[np.bool_], NDArray[np.bool_], _Info]:
         """Flies one step of all; actions: (count, 4). Returns observations, rewards, terminated, truncated, info."""
-        actions = octant._numbers("actions", actions)
-        if actions.shape != (self.num_envs, 4) or not np.isfinite(actions).all():
-            raise ValueError(f"actions: expected finite numbers of shape ({self.num_envs}, 4), got {actions.shape}")
+        rows = octant._numbers("actions", actions)
+        if rows.shape != (self.num_envs, 4):
+            raise ValueError(f"actions: expected an array of shape ({self.num_envs}, 4), got {rows.shape}")
+        if not np.isfinite(rows).all():
+            raise ValueError(f"actions: expected finite numbers, got {rows[~np.isfinite(rows)][0]}")
         results = []
-        for each, action, has_ended in zip(self.envs, actions, self._ended):
+        for each, action, has_ended in zip(self.envs, rows, self._ended):
             results.append((0.0, False, False, each._begin(None)) if has_ended else each._move(action))
         rewards, terminated, truncated, infos = zip(*results)
         terminated, truncated = np.array(terminated), np.array(truncated)
         self._ended = terminated | truncated
         return self._draw(), np.array(rewards), terminated, truncated, self._stacked(infos)
 
-    def close(self):
+    def close(self) -> None:
         """Closes all."""
         for each in self.envs:
             each.close()
 
-    def __enter__(self):
+    def __enter__(self) -> Batch:
         return self
 
-    def __exit__(self, *_):
+    def __exit__(self, *_: object) -> None:
         self.close()
 
 
-def batch(make, count):
+def batch(make: Callable[[], FollowPath], count: int) -> Batch:
     """`count` environments, made by calls of make(), that step and are drawn in one call: octant.envs.Batch.
 
     >>> import octant
