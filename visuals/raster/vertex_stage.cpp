@@ -12,6 +12,9 @@
 #include <hwy/foreach_target.h>
 // clang-format on
 
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
 #include <algorithm>
 #include <array>
 #include <cassert>
@@ -318,14 +321,20 @@ HWY_INLINE Triple tinted(hn::Vec<Bits> colour, std::uint32_t tint) {
         mixed(own.x, level<0>(over), share), mixed(own.y, level<8>(over), share), mixed(own.z, level<16>(over), share)};
 }
 
-/// Colours under the light on surfaces that face `outwards`, behind haze; 0..255.
-HWY_INLINE Triple lit(const Triple& rgb_255, const Triple& outwards, const Light& light, const Haze& haze) {
+/// Colours under the light on surfaces that face `outwards`, behind haze; 0..255. Those of textured ones are multiplied
+/// by texels before anything else happens to them: they keep what the haze leaves, and may be more than full.
+HWY_INLINE Triple lit(
+    const Triple& rgb_255, const Triple& outwards, const Light& light, const Haze& haze, hn::Mask<Reals> is_textured) {
+    constexpr float most = 380.0F; // fits the painter's numbers
     const Triple to_sun{set(light.to_sun.x), set(light.to_sun.y), set(light.to_sun.z)};
     const auto towards_sun = hn::Max(dot(outwards, to_sun), hn::Zero(Reals()));
     const auto seen = [&](Real own, glm::length_t i) HWY_ATTR {
         const auto sum = hn::Add(set(light.ambient[i]), hn::Mul(set(light.sunlight[i]), towards_sun));
-        const auto under_light = hn::Min(hn::Mul(own, sum), set(max_level));
-        return mixed(under_light, haze.rgb_255[static_cast<std::size_t>(i)], haze.share);
+        const auto under_light = hn::Mul(own, sum);
+        const auto in_haze =
+            mixed(hn::Min(under_light, set(max_level)), haze.rgb_255[static_cast<std::size_t>(i)], haze.share);
+        const auto left = hn::Mul(hn::Min(under_light, set(most)), hn::Sub(set(1.0F), haze.share));
+        return hn::IfThenElse(is_textured, left, in_haze);
     };
     return {seen(rgb_255.x, 0), seen(rgb_255.y, 1), seen(rgb_255.z, 2)};
 }
@@ -341,6 +350,13 @@ HWY_INLINE hn::Mask<Bits> is_smooth(std::span<const std::uint32_t> smooth, hn::V
     const auto values = hn::GatherIndex(bits, smooth.data(), place);
     const auto bit = hn::Shl(hn::Set(bits, 1U), hn::And(polygon, hn::Set(bits, 31U)));
     return hn::And(is_known, hn::Ne(hn::And(values, bit), hn::Zero(bits)));
+}
+
+/// Whether each vertex has a texture.
+HWY_INLINE hn::Mask<Reals> has_texture_of(const ModelBlock& block, const AircraftDrawState& state) {
+    if (!state.has_textures) { return hn::MaskFromVec(hn::Zero(Reals())); }
+    const auto texture = block.bits(offsetof(scene::ModelVertex, texture));
+    return hn::RebindMask(Reals(), hn::Ne(texture, hn::Zero(Bits())));
 }
 
 /// Writes what vertices that are lit in each pixel need.
@@ -373,12 +389,15 @@ void ProjectAircraft(std::span<const scene::ModelVertex> from, const AircraftDra
         const Haze haze(at, light);
         const Triple own = tinted(block.bits(offsetof(ModelVertex, colour)), state.tints.smooth);
         const Triple normal = turns.direction(block.triple(offsetof(ModelVertex, normal)));
-        const Triple of_corner = lit(own, normal, light, haze);
-        store.put_values(of_corner.x, of_corner.y, of_corner.z, hn::Zero(Reals()));
+        const auto has_texture = has_texture_of(block, state);
+        const auto textured = [&](std::uint32_t tint)
+                                  HWY_ATTR { return tint == 0 ? has_texture : hn::MaskFromVec(hn::Zero(Reals())); };
+        const Triple of_corner = lit(own, normal, light, haze, textured(state.tints.smooth));
+        store.put_values(of_corner.x, of_corner.y, of_corner.z, haze.share);
         store.copy(count, first, to);
         const Triple face_normal = turns.direction(block.triple(offsetof(ModelVertex, face_normal)));
         const Triple face_own = tinted(block.bits(offsetof(ModelVertex, face_colour)), state.tints.flat);
-        const Triple of_face = lit(face_own, face_normal, light, haze);
+        const Triple of_face = lit(face_own, face_normal, light, haze, textured(state.tints.flat));
         const auto turned_away = hn::Gt(dot(face_normal, at), hn::Mul(set(min_turn), haze.distance_m));
         const auto smooth = is_smooth(state.smooth, block.bits(offsetof(ModelVertex, polygon)));
         const auto flags = hn::Or(hn::IfThenElseZero(smooth, hn::Set(bits, FlatColour::smooth)),
@@ -413,6 +432,16 @@ Light light_of(const scene::FramePlan& plan) {
     return {plan.ambient, plan.sunlight, plan.to_sun, plan.haze.colour,
         visibility_m > 0.0F ? 1.0F / visibility_m : 0.0F, plan.haze.falloff_per_m, plan.haze.horizontal_to_sun,
         plan.haze.sunward_colour};
+}
+
+std::array<std::uint16_t, 3> haze_before(const glm::vec3& at_m, const Light& light) {
+    const float level_m = at_m.x * light.horizontal_to_sun.x + at_m.y * light.horizontal_to_sun.y;
+    const float towards = std::max(level_m / std::max(glm::length(at_m), 1e-6F), 0.0F);
+    const glm::vec3 colour = glm::mix(light.haze, light.sunward_colour, towards * towards);
+    const auto packed = [](float share) {
+        return static_cast<std::uint16_t>(std::clamp(share, 0.0F, 1.0F) * 255.0F * 128.0F + 0.5F);
+    };
+    return {packed(colour.x), packed(colour.y), packed(colour.z)};
 }
 
 float exp_of_minus(float x) { return HWY_DYNAMIC_DISPATCH(ExpOfMinus)(x); }
