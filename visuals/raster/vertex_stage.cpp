@@ -232,39 +232,64 @@ void ProjectTextured(std::span<const models::ColourVertex> from, const Projectio
     });
 }
 
-// -- Vertices of aircraft, which lie among other values: each value is gathered.
+// -- Vertices of aircraft.
 
-/// Vertices of aircraft, as many as a register holds; the last one again where there are fewer.
+/// A register of four values each of every fourth vertex, where the next vertex lies `stride` values behind.
+template <class Tag>
+HWY_INLINE hn::Vec<Tag> four_of_each(Tag tag, const float* from, std::size_t stride) {
+    if constexpr (hn::MaxLanes(tag) == 4) {
+        return hn::LoadU(tag, from);
+    } else {
+        const hn::Half<Tag> half;
+        return hn::Combine(
+            tag, four_of_each(half, from + hn::MaxLanes(half) * stride, stride), four_of_each(half, from, stride));
+    }
+}
+
+/// Vertices of aircraft, as many as a register holds: a register for each of their members' values.
 class ModelBlock {
 public:
-    HWY_INLINE ModelBlock(const scene::ModelVertex* from, std::size_t count) : from_(from) {
-        alignas(64) static constexpr auto firsts = [] {
-            std::array<std::int32_t, at_once> values{};
-            for (std::size_t i = 0; i < at_once; ++i) { values[i] = static_cast<std::int32_t>(i) * stride; }
-            return values;
-        }();
-        const auto last = hn::Set(Whole(), static_cast<std::int32_t>(count - 1) * stride);
-        first_ = hn::Min(hn::Load(Whole(), firsts.data()), last);
+    HWY_INLINE explicit ModelBlock(const scene::ModelVertex* from) {
+        const auto* const values = reinterpret_cast<const float*>(from);
+        for (std::size_t i = 0; i < count; i += 4) {
+            // The first, second, third and last vertex of each four.
+            const auto vertex = [&](std::size_t k)
+                                    HWY_ATTR { return four_of_each(Reals(), values + k * count + i, count); };
+            transpose({vertex(0), vertex(1), vertex(2), vertex(3)}, i);
+        }
     }
 
     /// A member that takes four bytes, by its offset.
     HWY_INLINE hn::Vec<Bits> bits(std::size_t offset) const {
-        return hn::GatherIndex(Bits(), reinterpret_cast<const std::uint32_t*>(from_) + offset / sizeof(float), first_);
+        return hn::BitCast(Bits(), values_[offset / sizeof(float)]);
     }
 
     /// A glm::vec3.
     HWY_INLINE Triple triple(std::size_t offset) const {
-        const auto value = [&](std::size_t i)
-                               HWY_ATTR { return hn::BitCast(Reals(), bits(offset + i * sizeof(float))); };
-        return {value(0), value(1), value(2)};
+        const std::size_t i = offset / sizeof(float);
+        return {values_[i], values_[i + 1], values_[i + 2]};
     }
 
 private:
-    static_assert(sizeof(scene::ModelVertex) % sizeof(float) == 0);
-    static constexpr std::int32_t stride = sizeof(scene::ModelVertex) / sizeof(float);
+    static constexpr std::size_t count = sizeof(scene::ModelVertex) / sizeof(float);
+    static_assert(count % 4 == 0 && count * sizeof(float) == sizeof(scene::ModelVertex));
 
-    const scene::ModelVertex* from_;
-    hn::Vec<Whole> first_; ///< the place of a vertex's first value, in values
+    /// Four values of each vertex, from the i-th on, in four registers.
+    HWY_INLINE void transpose(const std::array<Real, 4>& vertices, std::size_t i) {
+        const Reals reals;
+        const auto even = [&](std::size_t k) HWY_ATTR {
+            return std::array{hn::InterleaveLower(reals, vertices[k], vertices[k + 2]),
+                hn::InterleaveUpper(reals, vertices[k], vertices[k + 2])};
+        };
+        const auto first = even(0);
+        const auto second = even(1);
+        for (std::size_t k = 0; k < 2; ++k) {
+            values_[i + 2 * k] = hn::InterleaveLower(reals, first[k], second[k]);
+            values_[i + 2 * k + 1] = hn::InterleaveUpper(reals, first[k], second[k]);
+        }
+    }
+
+    std::array<Real, count> values_;
 };
 
 /// From the axes of each vertex's part to world axes with the eye subtracted.
@@ -379,10 +404,16 @@ void ProjectAircraft(std::span<const scene::ModelVertex> from, const AircraftDra
     using scene::ModelVertex;
     const Bits bits;
     VertexStore store;
+    std::array<ModelVertex, at_once> last{};
     alignas(64) std::array<float, 4 * at_once> flat;
     for (std::size_t first = 0; first < from.size(); first += at_once) {
         const std::size_t count = std::min(at_once, from.size() - first);
-        const ModelBlock block(from.data() + first, count);
+        const ModelVertex* vertices = from.data() + first;
+        if (count < at_once) {
+            std::copy_n(vertices, count, last.begin());
+            vertices = last.data();
+        }
+        const ModelBlock block(vertices);
         const PartTurns turns(state.parts, block.bits(offsetof(ModelVertex, part)));
         const Triple at = turns.place(block.triple(offsetof(ModelVertex, position_m)));
         store.put(at, projection);
