@@ -403,6 +403,17 @@ HWY_INLINE void add_fragments(const TileTriangle& one, const TileJob& job, TileB
         });
 }
 
+/// Makes the pixels of a part of a strip fragments that have fresh samples.
+HWY_INLINE void add_strip_part(std::size_t first_pixel, hn::Vec<Strip> fresh, TileFragments& fragments) {
+    static_assert(part_px <= TileFragments::room);
+    const auto is_fresh = hn::Ne(fresh, hn::Zero(Strip()));
+    const auto pixels =
+        hn::Add(hn::Set(Strip(), static_cast<std::uint16_t>(first_pixel)), lane_indices_from(Strip(), 0));
+    hn::StoreU(hn::Compress(pixels, is_fresh), Strip(), fragments.pixels.data() + fragments.count);
+    hn::StoreU(hn::Compress(fresh, is_fresh), Strip(), fragments.samples.data() + fragments.count);
+    fragments.count += hn::CountTrue(Strip(), is_fresh);
+}
+
 /// Makes the free samples of TileBuffer::masks fragments, and covers them.
 HWY_INLINE void take_fragments(const TileJob& job, TileBuffer& buffer) {
     buffer.fragments.count = 0;
@@ -442,14 +453,9 @@ HWY_NOINLINE void paint_textured_mesh(
     for (int left = box.left; left <= box.right; left += strip_px) {
         with_parts_of_strip(box, left, [&](auto parts) HWY_ATTR {
             const auto take = [&](int row, const auto& fresh) HWY_ATTR {
-                alignas(64) std::array<std::uint16_t, strip_px> samples;
-                for (std::size_t i = 0; i < fresh.size(); ++i) {
-                    hn::Store(fresh[i], Strip(), samples.data() + i * part_px);
-                }
-                const std::uint32_t some = ~bits_equal_to(fresh, 0) & bits_of_parts<decltype(parts)::value>;
-                for (std::uint32_t pixels = some; pixels != 0; pixels &= pixels - 1) {
-                    const auto column = static_cast<std::size_t>(std::countr_zero(pixels));
-                    fragments.add(static_cast<std::size_t>(row * tile_width + left) + column, samples[column]);
+                for (std::size_t part = 0; part < fresh.size(); ++part) {
+                    const auto first = static_cast<std::size_t>(row * tile_width + left) + part * part_px;
+                    add_strip_part(first, fresh[part], fragments);
                 }
             };
             walk_strip<decltype(parts)::value>(triangle, job, lanes, box, left, buffer, take, [] {});

@@ -97,7 +97,7 @@ struct TransparentPixel {
 
 /// Pixels of a tile that show new samples of a textured triangle.
 struct TileFragments {
-    static constexpr std::size_t room = 16; ///< for registers
+    static constexpr std::size_t room = 32; ///< for registers
 
     std::array<std::uint16_t, std::size_t{tile_width} * tile_height + room> pixels; ///< numbers in the tile
     std::array<std::uint16_t, std::size_t{tile_width} * tile_height + room> samples;

@@ -290,6 +290,10 @@ HWY_INLINE void prefetch_triangle(const TileJob& job, std::size_t end) {
     if (end >= ahead) {
         const auto* const from = reinterpret_cast<const std::uint8_t*>(job.triangles[end - ahead].triangle);
         for (std::size_t at = 0; at < sizeof(Triangle); at += cache_line) { hwy::Prefetch(from + at); }
+        const auto* const surface = reinterpret_cast<const std::uint8_t*>(job.triangles[end - ahead].surface);
+        if (surface != nullptr) {
+            for (std::size_t at = 0; at < sizeof(SurfacePlanes); at += cache_line) { hwy::Prefetch(surface + at); }
+        }
     }
 }
 
