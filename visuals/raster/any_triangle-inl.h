@@ -11,6 +11,7 @@
 #include "visuals/raster/gouraud_triangle-inl.h"
 #include "visuals/raster/pixel_colour.h"
 #include "visuals/raster/strip_coverage-inl.h"
+#include "visuals/raster/textured_mesh-inl.h"
 
 #include <algorithm>
 #include <bit>
@@ -25,8 +26,6 @@ namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 // -- Coverage: which samples of a tile a triangle covers, a mask of sixteen bits for each pixel.
-
-constexpr int block_px = 16;
 
 /// Columns of a row that may be covered.
 struct RowSpan {
@@ -139,22 +138,7 @@ HWY_NOINLINE void cover(const TileTriangle& one, const TileJob& job, const Sampl
             strip.next_row();
         }
     }
-}
-
-/// Calls visit(column and row of the tile, number of the pixel, mask) for each pixel of which cover() found samples.
-template <class Visit>
-HWY_INLINE void for_each_covered(const TileJob& job, const TileBuffer& buffer, const Visit& visit) {
-    const Coverage& coverage = buffer.coverage;
-    for (int row = coverage.first_row; row <= coverage.last_row; ++row) {
-        const Coverage::Row places = coverage.rows[static_cast<std::size_t>(row)];
-        const int end = std::min(places.first + places.blocks * block_px, job.size_px.x);
-        const std::uint16_t* const masks = buffer.masks.data() + static_cast<std::size_t>(row) * TileBuffer::mask_row;
-        for (int column = places.first; column < end; ++column) {
-            if (masks[column] != 0) {
-                visit(glm::ivec2(column, row), static_cast<std::size_t>(row * tile_width + column), masks[column]);
-            }
-        }
-    }
+    if (one.surface != nullptr && one.surface->texture->has_holes) { remove_holes(one, job, buffer); }
 }
 
 // -- Colour of the samples that no nearer triangle covers.
@@ -239,6 +223,11 @@ HWY_INLINE void add_pixel_by_pixel(const TileTriangle& one, const TileJob& job, 
 
 /// Adds a triangle's colour where TileBuffer::masks has samples that are free.
 HWY_NOINLINE void fill(const TileTriangle& one, const TileJob& job, TileBuffer& buffer) {
+    if (one.surface != nullptr) {
+        take_fragments(job, buffer);
+        add_fragments(one, job, buffer);
+        return;
+    }
     const Coverage& coverage = buffer.coverage;
     const Triangle& triangle = *one.triangle;
     constexpr std::size_t px_at_once = hn::MaxLanes(Pixels());
@@ -410,17 +399,29 @@ HWY_INLINE std::uint32_t nearer_samples(
 HWY_INLINE void record_transparent_surface(
     const TileTriangle& one, const TileJob& job, const SampleLanes& lanes, TileBuffer& buffer) {
     const DepthStepper walk(*one.extra, job, lanes);
+    buffer.fragments.count = 0;
     for_each_covered(job, buffer, [&](const glm::ivec2& at, std::size_t pixel, std::uint32_t mask) HWY_ATTR {
         const auto free = mask & ~std::uint32_t{buffer.covered[pixel]};
         if (free == 0) { return; }
         const std::uint32_t seen =
             nearer_samples(free, walk.at(at.x, at.y), walk, buffer.depth.data() + pixel * samples);
-        if (seen != 0) {
+        if (seen != 0 && one.surface != nullptr) {
+            buffer.fragments.add(pixel, seen);
+        } else if (seen != 0) {
             buffer.transparent_pixels.push_back({static_cast<std::uint16_t>(pixel), static_cast<std::uint16_t>(seen),
                 colour_of(one, job, job.first_px.x + at.x, job.first_px.y + at.y),
                 TransparentPixel::share_of(one.extra->opacity, std::popcount(seen))});
         }
     });
+    if (one.surface == nullptr) { return; }
+    const float opacity = one.extra->opacity;
+    const float share = one.surface->texture->has_share_of_own ? opacity / 65535.0F : 0.0F;
+    for_each_fragment(one, job, buffer.fragments,
+        [&](std::size_t pixel, std::uint32_t seen, const PixelColour& colour, std::uint32_t alpha) HWY_ATTR {
+            const float own = share > 0.0F ? share * static_cast<float>(alpha) : opacity;
+            buffer.transparent_pixels.push_back({static_cast<std::uint16_t>(pixel), static_cast<std::uint16_t>(seen),
+                colour, TransparentPixel::share_of(own, std::popcount(seen))});
+        });
 }
 
 /// The samples of a pixel that show a triangle of its group.

@@ -37,6 +37,12 @@ std::vector<std::uint16_t> depth_groups(std::span<const scene::PaintStep> steps)
     return groups;
 }
 
+/// Refined meshes of tests have no model.
+std::span<const MeshTexture> textures_of(const FrameInput& input, std::uint32_t model) {
+    if (model >= input.textures.size()) { return {}; }
+    return input.textures[model];
+}
+
 /// Whether a corner of textured ground has its own colour: FramePlan::ground_texture.
 bool has_own_colour(const models::ColourVertex& vertex) { return vertex.colour >> 24U == 0; }
 
@@ -110,10 +116,12 @@ void FrameDraws::add_step(const FrameInput& input, const PaintStep& step, DrawSt
         for (std::uint32_t i = step.first; i < step.first + step.count; ++i) {
             const scene::RefinedDraw& draw = plan.refined[i];
             const AircraftDrawState state{std::span(plan.parts).subspan(draw.first_part),
-                std::span(plan.smooth).subspan(draw.first_smooth), draw.tints};
+                std::span(plan.smooth).subspan(draw.first_smooth), draw.tints, !textures_of(input, draw.model).empty()};
             add_mesh(std::array{draw.indices}, state,
                 {.style = style,
                     .is_aircraft = true,
+                    .textures = textures_of(input, draw.model),
+                    .tints = draw.tints,
                     .content = PaintStep::Content::Refined,
                     .of_model = draw.vertices,
                     .first_part = draw.first_part,
@@ -171,10 +179,12 @@ VertexBlock& FrameDraws::add_block(VertexBlock::Kind kind, std::size_t corners) 
 void FrameDraws::add_aircraft(const FrameInput& input, const scene::AircraftDraw& draw, const DrawStyle& style) {
     const scene::ModelBuffers& model = input.models[draw.model];
     const AircraftDrawState state{std::span(input.plan.parts).subspan(draw.first_part),
-        std::span(input.plan.smooth).subspan(draw.first_smooth), draw.tints};
+        std::span(input.plan.smooth).subspan(draw.first_smooth), draw.tints, !textures_of(input, draw.model).empty()};
     const std::span<const std::uint32_t> all(model.indices);
     const DrawSlice slice{.style = style,
         .is_aircraft = true,
+        .textures = textures_of(input, draw.model),
+        .tints = draw.tints,
         .content = PaintStep::Content::Aircraft,
         .of_model = model.vertices,
         .first_part = draw.first_part,

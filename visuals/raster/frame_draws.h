@@ -1,6 +1,7 @@
 #pragma once
 
 #include "visuals/raster/lit_ground_texture.h"
+#include "visuals/raster/mesh_texture.h"
 #include "visuals/raster/triangle_setup.h"
 #include "visuals/raster/vertex_stage.h"
 #include "visuals/scene/frame_plan.h"
@@ -28,6 +29,7 @@ struct FrameInput {
     std::span<const scene::ModelBuffers> models;
     LitGroundTexture* ground = nullptr; ///< null = no texture is loaded
     glm::ivec2 size_px{0};
+    std::span<const std::vector<MeshTexture>> textures{}; ///< of each model; none = they show their colours
 };
 
 /// Vertices that the same function of vertex_stage.h projects, and their place in the list of all vertices.
@@ -48,6 +50,8 @@ struct DrawSlice {
     std::int64_t first_vertex = 0; ///< gives the index among all vertices
     std::int64_t first_flat = 0;   ///< gives the index among the vertices of aircraft
     bool is_aircraft = false;
+    std::span<const MeshTexture> textures{}; ///< as scene::ModelBuffers
+    scene::PolygonTints tints{};
     // What the truth of the picture needs.
     scene::PaintStep::Content content = scene::PaintStep::Content::Ground;
     std::span<const scene::ModelVertex> of_model{}; ///< what `indices` count in, of aircraft and refined meshes

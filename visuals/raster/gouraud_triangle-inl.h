@@ -420,40 +420,53 @@ private:
     hn::Vec<Four> max_;
 };
 
-/// Paints a triangle whose box is no wider than a speck.
-template <PaintAs kind>
-HWY_INLINE void paint_speck(
-    const Triangle& triangle, const TileJob& job, const SampleLanes& lanes, const TileBox& box, TileBuffer& buffer) {
+/// Covers what is free of a triangle whose box is no wider than a speck. Calls paint(column of the box, a constant;
+/// row, number of the pixel, fresh samples, perhaps none) and next_row() after each row.
+template <class Paint, class NextRow>
+HWY_INLINE void walk_speck(const Triangle& triangle, const TileJob& job, const SampleLanes& lanes, const TileBox& box,
+    TileBuffer& buffer, const Paint& paint, const NextRow& next_row) {
     const glm::ivec2 first_px = job.first_px + glm::ivec2(box.left, box.first_row);
     const std::uint64_t full_row = job.full_row();
     StripCoverage coverage(triangle, first_px, box.columns_of_strip(box.left), lanes);
-    SpeckColours colours(triangle.gradients, first_px);
     for (int row = box.first_row; row <= box.last_row; ++row) {
         std::uint64_t& full = buffer.full[static_cast<std::size_t>(row)];
         const LaneMasks masks = coverage.lanes();
-        const auto paint = [&](auto column) HWY_ATTR {
+        const auto cover_pixel = [&](auto column) HWY_ATTR {
             constexpr int right = decltype(column)::value;
             const auto pixel = static_cast<std::size_t>(row * tile_width + box.left + right);
             const std::uint32_t before = buffer.covered[pixel];
             const std::uint32_t fresh = StripCoverage::samples_of<right>(masks) & ~before;
             buffer.covered[pixel] = static_cast<std::uint16_t>(before | fresh);
             full |= std::uint64_t{(before | fresh) == 0xffffU} << (box.left + right);
-            colours.template add<right>(std::popcount(fresh), pixel, buffer);
-            if constexpr (kind == PaintAs::OtherThanGround) {
-                std::uint16_t& other = buffer.sums[3][pixel];
-                other = static_cast<std::uint16_t>(other + std::popcount(fresh));
-            } else if constexpr (kind == PaintAs::Ground && right == 0) { // which is even
-                if (row % 2 == 0 && fresh != 0) {
-                    buffer.ground_of_row(row)[box.left / 2] = ground_at(triangle, first_px.x, job.first_px.y + row);
-                }
-            }
+            paint(column, row, pixel, fresh);
         };
-        paint(std::integral_constant<int, 0>());
-        if (box.right > box.left) { paint(std::integral_constant<int, 1>()); }
+        cover_pixel(std::integral_constant<int, 0>());
+        if (box.right > box.left) { cover_pixel(std::integral_constant<int, 1>()); }
         buffer.full_rows |= std::uint32_t{(full & full_row) == full_row} << row;
         coverage.next_row();
-        colours.next_row();
+        next_row();
     }
+}
+
+/// Paints a triangle whose box is no wider than a speck.
+template <PaintAs kind>
+HWY_INLINE void paint_speck(
+    const Triangle& triangle, const TileJob& job, const SampleLanes& lanes, const TileBox& box, TileBuffer& buffer) {
+    SpeckColours colours(triangle.gradients, job.first_px + glm::ivec2(box.left, box.first_row));
+    const auto paint = [&](auto column, int row, std::size_t pixel, std::uint32_t fresh) HWY_ATTR {
+        constexpr int right = decltype(column)::value;
+        colours.template add<right>(std::popcount(fresh), pixel, buffer);
+        if constexpr (kind == PaintAs::OtherThanGround) {
+            std::uint16_t& other = buffer.sums[3][pixel];
+            other = static_cast<std::uint16_t>(other + std::popcount(fresh));
+        } else if constexpr (kind == PaintAs::Ground && right == 0) { // which is even
+            if (row % 2 == 0 && fresh != 0) {
+                const glm::ivec2 at = job.first_px + glm::ivec2(box.left, row);
+                buffer.ground_of_row(row)[box.left / 2] = ground_at(triangle, at.x, at.y);
+            }
+        }
+    };
+    walk_speck(triangle, job, lanes, box, buffer, paint, [&]() HWY_ATTR { colours.next_row(); });
 }
 
 /// An edge in a strip where a pixel's only sample is its middle.

@@ -165,14 +165,17 @@ float highlight(const std::array<float, 3>& normal, const std::array<float, 3>& 
     return power;
 }
 
+} // namespace
+
 /// Phong's shading: normals between the corners, light in the pixel.
-PixelColour lit_colour(const TileTriangle& one, const TileJob& job, int column, int row) {
+PixelColour lit_colour_of(
+    const TileTriangle& one, const TileJob& job, const glm::ivec2& at, const std::array<float, 3>& texel) {
     const TriangleExtra& extra = *one.extra;
     // Beyond an edge, where only a pixel's samples are covered, the edge's colour.
     std::array<float, 3> weights;
     float sum = 0.0F;
     for (std::size_t k = 0; k < 3; ++k) {
-        weights[k] = static_cast<float>(std::max(extra.from_edges[k].at(column, row), 0.0));
+        weights[k] = static_cast<float>(std::max(extra.from_edges[k].at(at.x, at.y), 0.0));
         sum += weights[k];
     }
     float transmittance = 0.0F;
@@ -197,15 +200,13 @@ PixelColour lit_colour(const TileTriangle& one, const TileJob& job, int column, 
     PixelColour colour;
     for (std::size_t i = 0; i < 3; ++i) {
         const auto part = static_cast<glm::length_t>(i);
-        const float lit =
-            own[i] * (light.ambient[part] + light.sunlight[part] * diffuse) + light.sunlight[part] * specular;
+        const float lit = own[i] * texel[i] * (light.ambient[part] + light.sunlight[part] * diffuse) +
+                          light.sunlight[part] * specular;
         const float seen = std::min(lit, static_cast<float>(max_colour_level)) * transmittance + haze[i];
         colour[i] = packed(static_cast<double>(seen));
     }
     return colour;
 }
-
-} // namespace
 
 PixelColour colour_of(const TileTriangle& one, const TileJob& job, int column, int row) {
     switch (one.triangle->fill) {
@@ -220,7 +221,7 @@ PixelColour colour_of(const TileTriangle& one, const TileJob& job, int column, i
     case Fill::MeshEdges:
         return wireframe_colour(one, job, column, row);
     case Fill::Lit:
-        return lit_colour(one, job, column, row);
+        return lit_colour_of(one, job, {column, row}, {1.0F, 1.0F, 1.0F});
     case Fill::Gouraud:
     case Fill::Transparent:
         break;

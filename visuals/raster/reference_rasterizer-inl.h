@@ -139,6 +139,11 @@ HWY_INLINE void paint_pixels_over(
     const TileTriangle& one, const TileJob& job, const SampleLanes& lanes, TileBuffer& buffer) {
     cover(one, job, lanes, buffer);
     const DepthRule rule(one.triangle->depth);
+    const auto put = [&](std::size_t pixel, const PixelColour& colour) HWY_ATTR {
+        buffer.covered[pixel] = 0xffff;
+        for (std::size_t k = 0; k < 3; ++k) { buffer.sums[k][pixel] = static_cast<std::uint16_t>(colour[k] * 16U); }
+    };
+    buffer.fragments.count = 0;
     for_each_covered(job, buffer, [&](const glm::ivec2& in_tile, std::size_t pixel, std::uint32_t /*mask*/) HWY_ATTR {
         const glm::ivec2 at = job.first_px + in_tile;
         if (rule.compares) {
@@ -149,9 +154,11 @@ HWY_INLINE void paint_pixels_over(
             before = rule.writes ? here : before;
         }
         if (!rule.colours) { return; }
-        const PixelColour colour = colour_of(one, job, at.x, at.y);
-        buffer.covered[pixel] = 0xffff;
-        for (std::size_t k = 0; k < 3; ++k) { buffer.sums[k][pixel] = static_cast<std::uint16_t>(colour[k] * 16U); }
+        if (one.surface != nullptr) {
+            buffer.fragments.add(pixel, 0xffff);
+        } else {
+            put(pixel, colour_of(one, job, at.x, at.y));
+        }
         if (job.detail_texture != nullptr) {
             const Triangle& triangle = *one.triangle;
             buffer.sums[3][pixel] = triangle.has_detail_texture ? 0 : 16;
@@ -161,14 +168,18 @@ HWY_INLINE void paint_pixels_over(
             }
         }
     });
+    if (one.surface == nullptr) { return; }
+    for_each_fragment(one, job, buffer.fragments,
+        [&](std::size_t pixel, std::uint32_t /*samples*/, const PixelColour& colour, std::uint32_t /*alpha*/)
+            HWY_ATTR { put(pixel, colour); });
 }
 
 HWY_INLINE bool is_transparent_surface(const TileTriangle& one) {
     return one.extra != nullptr && one.extra->opacity < 1.0F;
 }
 
-/// Whether a tile is painted far to near: each triangle paints over those before it. So it is where the job says so, and
-/// where all triangles belong to one depth group; never with transparent surfaces, which are recorded separately.
+/// Whether a tile is painted far to near: each triangle paints over those before it. So it is where the job says so,
+/// and where all triangles belong to one depth group; never with transparent surfaces, which are recorded separately.
 HWY_INLINE bool is_far_to_near(const TileJob& job, const SampleLanes& lanes) {
     if (!lanes.is_single_sample || job.triangles.empty()) { return false; }
     const std::uint16_t first = job.triangles.front().triangle->group;
@@ -188,7 +199,8 @@ HWY_NOINLINE void paint_far_to_near(const TileJob& job, const SampleLanes& lanes
             group = triangle.group;
             buffer.depth.assign(TileBuffer::pixels + TileBuffer::padding, 0.0F);
         }
-        const bool is_plain = triangle.fill == Fill::Gouraud && (one.extra == nullptr || one.extra->cut_count == 0);
+        const bool is_plain = one.surface == nullptr && triangle.fill == Fill::Gouraud &&
+                              (one.extra == nullptr || one.extra->cut_count == 0);
         if (!is_plain) {
             paint_pixels_over(one, job, lanes, buffer);
             continue;

@@ -89,6 +89,10 @@ std::size_t Renderer::byte_at(int x, int y) const {
 
 void Renderer::load_models(std::span<const scene::ModelBuffers> models) {
     models_.assign(models.begin(), models.end());
+    textures_.clear();
+    for (const scene::ModelBuffers& model : models_) {
+        textures_.emplace_back(model.textures.begin(), model.textures.end());
+    }
 }
 
 void Renderer::load_ground_texture(const scene::GroundTexture& texture) { ground_.emplace().load(texture); }
@@ -121,7 +125,7 @@ void Renderer::draw_inset(const scene::FramePlan& plan, const scene::PixelRect& 
 }
 
 void Renderer::prepare(const scene::FramePlan& plan, const scene::PixelRect& rect) {
-    binner_.prepare({plan, models_, ground_ ? &*ground_ : nullptr, {rect.width, rect.height}});
+    binner_.prepare({plan, models_, ground_ ? &*ground_ : nullptr, {rect.width, rect.height}, textures_});
     prepared_plan_ = rect.width == size_px_.x && rect.height == size_px_.y ? &plan : nullptr;
 }
 

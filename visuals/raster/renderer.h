@@ -2,6 +2,7 @@
 
 #include "sim/base/thread_pool.h"
 #include "visuals/raster/lit_ground_texture.h"
+#include "visuals/raster/mesh_texture.h"
 #include "visuals/raster/tile.h"
 #include "visuals/raster/triangle_binner.h"
 #include "visuals/raster/truth_middles.h"
@@ -129,6 +130,7 @@ private:
     SampleLanes lanes_;
     TriangleBinner binner_;
     std::vector<scene::ModelBuffers> models_;
+    std::vector<std::vector<MeshTexture>> textures_; ///< of each model
     std::optional<LitGroundTexture> ground_;
 
     std::vector<std::unique_ptr<ThreadScratch>> thread_scratch_;

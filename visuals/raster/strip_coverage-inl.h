@@ -471,6 +471,26 @@ HWY_INLINE void walk_strip(const Triangle& triangle, const TileJob& job, const S
     }
 }
 
+// -- Masks of a whole tile: TileBuffer::masks.
+
+constexpr int block_px = 16;
+
+/// Calls visit(column and row of the tile, number of the pixel, mask) for each pixel of which cover() found samples.
+template <class Visit>
+HWY_INLINE void for_each_covered(const TileJob& job, const TileBuffer& buffer, const Visit& visit) {
+    const Coverage& coverage = buffer.coverage;
+    for (int row = coverage.first_row; row <= coverage.last_row; ++row) {
+        const Coverage::Row places = coverage.rows[static_cast<std::size_t>(row)];
+        const int end = std::min(places.first + places.blocks * block_px, job.size_px.x);
+        const std::uint16_t* const masks = buffer.masks.data() + static_cast<std::size_t>(row) * TileBuffer::mask_row;
+        for (int column = places.first; column < end; ++column) {
+            if (masks[column] != 0) {
+                visit(glm::ivec2(column, row), static_cast<std::size_t>(row * tile_width + column), masks[column]);
+            }
+        }
+    }
+}
+
 } // namespace HWY_NAMESPACE
 } // namespace octant::visuals::raster
 

@@ -23,7 +23,8 @@ constexpr int tile_height = 32;
 /// A triangle that may cover a part of a tile.
 struct TileTriangle {
     const Triangle* triangle = nullptr;
-    const TriangleExtra* extra = nullptr; ///< none if it needs none
+    const TriangleExtra* extra = nullptr;   ///< none if it needs none
+    const SurfacePlanes* surface = nullptr; ///< none if it has no texture of its own
 };
 
 /// The input of paint_tile(), and where it writes.
@@ -94,6 +95,21 @@ struct TransparentPixel {
     }
 };
 
+/// Pixels of a tile that show new samples of a textured triangle.
+struct TileFragments {
+    static constexpr std::size_t room = 32; ///< for registers
+
+    std::array<std::uint16_t, std::size_t{tile_width} * tile_height + room> pixels; ///< numbers in the tile
+    std::array<std::uint16_t, std::size_t{tile_width} * tile_height + room> samples;
+    std::size_t count = 0;
+
+    void add(std::size_t pixel, std::uint32_t fresh) {
+        pixels[count] = static_cast<std::uint16_t>(pixel);
+        samples[count] = static_cast<std::uint16_t>(fresh);
+        ++count;
+    }
+};
+
 /// What a thread works on: sums of colours and masks of covered samples for the pixels of a tile. Rows of sums follow
 /// each other without gaps: a block of sixteen pixels may begin anywhere, and what it reads of the next row it writes
 /// back unchanged.
@@ -117,6 +133,7 @@ struct TileBuffer {
     static constexpr std::size_t mask_row = tile_width + 48;
     alignas(64) std::array<std::uint16_t, mask_row * tile_height + padding> masks{};
     Coverage coverage{};
+    TileFragments fragments; ///< of the textured triangle at hand
     // Of groups that are drawn by depth: a value for each sample.
     std::vector<float> depth;
     std::vector<std::uint32_t> seen; ///< place in the tile's list, from 1; 0: nothing
@@ -148,6 +165,11 @@ struct SampleOwners {
 /// Counts the samples of each pixel that show what the pixel belongs to. Writes the counts to TileBuffer::sums[0].
 /// Clouds and glass count as in find_middles().
 void count_samples(const TileJob& job, const SampleLanes& lanes, const SampleOwners& owners, TileBuffer& buffer);
+
+/// Those of a row's columns in whose middle the texture of a triangle has no hole; a bit for each column of the tile
+/// that begins at `tile_px`. `row`: of the tile.
+std::uint64_t columns_without_holes(
+    const SurfacePlanes& surface, const glm::ivec2& tile_px, int row, std::uint64_t columns);
 
 /// Makes a tile's picture: from the nearest triangle to the farthest, each colouring the samples that nothing nearer
 /// covers.

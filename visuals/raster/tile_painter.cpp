@@ -6,7 +6,8 @@
 //   strip_coverage-inl.h        coverage masks and gradients of strips, 32 pixels of a row
 //   gouraud_triangle-inl.h      triangles with linear colours: nearly all of a picture
 //   any_triangle-inl.h          triangles of any other fill: coverage, colour, depth groups, transparent triangles
-//   textured_triangle-inl.h     textured triangles: texels, filter, planes, spans
+//   textured_triangle-inl.h     triangles of textured ground: texels, filter, planes, spans
+//   textured_mesh-inl.h         triangles of meshes that have textures, pixel by pixel
 //   detail_texture-inl.h        the detail texture of near ground, after all triangles of the tile
 //   reference_rasterizer-inl.h  painter's algorithm and depth buffer with one sample a pixel, for comparison
 #include "visuals/raster/tile.h"
@@ -33,6 +34,7 @@
 #include "visuals/raster/pixel_colour.h"
 #include "visuals/raster/reference_rasterizer-inl.h"
 #include "visuals/raster/strip_coverage-inl.h"
+#include "visuals/raster/textured_mesh-inl.h"
 #include "visuals/raster/textured_triangle-inl.h"
 #include "visuals/raster/truth_middles.h"
 #include "visuals/raster/truth_surfaces.h"
@@ -259,7 +261,12 @@ HWY_INLINE void paint_overlay(const TileJob& job, const SampleLanes& lanes, Tile
 /// Paints a triangle that has no depth.
 HWY_INLINE void paint_one(const TileTriangle& one, const TileJob& job, const SampleLanes& lanes, TileBuffer& buffer) {
     const Fill fill_with = one.triangle->fill;
-    if (fill_with == Fill::Gouraud && one.extra == nullptr) {
+    const bool is_cut = one.extra != nullptr && one.extra->cut_count > 0;
+    if (one.surface != nullptr && !is_cut && !one.surface->texture->has_holes) {
+        paint_textured_mesh(one, job, lanes, buffer);
+        return;
+    }
+    if (one.surface == nullptr && fill_with == Fill::Gouraud && one.extra == nullptr) {
         if (job.detail_texture == nullptr) {
             paint_gouraud<PaintAs::Plain>(*one.triangle, job, lanes, buffer);
         } else if (one.triangle->has_detail_texture) {
@@ -283,6 +290,10 @@ HWY_INLINE void prefetch_triangle(const TileJob& job, std::size_t end) {
     if (end >= ahead) {
         const auto* const from = reinterpret_cast<const std::uint8_t*>(job.triangles[end - ahead].triangle);
         for (std::size_t at = 0; at < sizeof(Triangle); at += cache_line) { hwy::Prefetch(from + at); }
+        const auto* const surface = reinterpret_cast<const std::uint8_t*>(job.triangles[end - ahead].surface);
+        if (surface != nullptr) {
+            for (std::size_t at = 0; at < sizeof(SurfacePlanes); at += cache_line) { hwy::Prefetch(surface + at); }
+        }
     }
 }
 
@@ -393,6 +404,22 @@ HWY_INLINE void count_group(const TileJob& job, const std::array<std::size_t, 2>
     }
 }
 
+HWY_INLINE bool has_holes(const TileTriangle& one) { return one.surface != nullptr && one.surface->texture->has_holes; }
+
+std::uint64_t ColumnsWithoutHoles(
+    const SurfacePlanes& surface, const glm::ivec2& tile_px, int row, std::uint64_t columns) {
+    TileFragments fragments;
+    for (std::uint64_t left = columns; left != 0; left &= left - 1) {
+        fragments.add(static_cast<std::size_t>(row * tile_width + std::countr_zero(left)), 1);
+    }
+    remove_holes(surface, tile_px, fragments);
+    std::uint64_t kept = 0;
+    for (std::size_t i = 0; i < fragments.count; ++i) {
+        kept |= std::uint64_t{1} << (fragments.pixels[i] % tile_width);
+    }
+    return kept;
+}
+
 void CountSamples(const TileJob& job, const SampleLanes& lanes, const SampleOwners& owners, TileBuffer& buffer) {
     buffer.covered.fill(0);
     buffer.sums[0].fill(0);
@@ -412,7 +439,7 @@ void CountSamples(const TileJob& job, const SampleLanes& lanes, const SampleOwne
             const TileTriangle& one = job.triangles[first];
             if (triangle.is_under_side) {
                 // left out, as find_middles() does
-            } else if (one.extra == nullptr || one.extra->cut_count == 0) {
+            } else if ((one.extra == nullptr || one.extra->cut_count == 0) && !has_holes(one)) {
                 count_uncut(triangle, job, lanes, owners, buffer);
             } else {
                 cover(one, job, lanes, buffer);
@@ -457,6 +484,7 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace octant::visuals::raster {
 
+HWY_EXPORT(ColumnsWithoutHoles);
 HWY_EXPORT(CountSamples);
 HWY_EXPORT(PaintTile);
 
@@ -471,6 +499,13 @@ bool exclude_targets_without_gfni() {
 }
 
 } // namespace
+
+std::uint64_t columns_without_holes(
+    const SurfacePlanes& surface, const glm::ivec2& tile_px, int row, std::uint64_t columns) {
+    static const bool may_choose = exclude_targets_without_gfni();
+    static_cast<void>(may_choose);
+    return HWY_DYNAMIC_DISPATCH(ColumnsWithoutHoles)(surface, tile_px, row, columns);
+}
 
 void count_samples(const TileJob& job, const SampleLanes& lanes, const SampleOwners& owners, TileBuffer& buffer) {
     static const bool may_choose = exclude_targets_without_gfni();

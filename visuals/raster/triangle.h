@@ -162,6 +162,32 @@ enum class Fill : std::uint8_t {
     Transparent ///< linear colours, blended by their alpha over farther surfaces
 };
 
+struct MeshTexture;
+
+/// What a triangle of a mesh with a texture interpolates: over the picture 1 / w and all values over w are planes.
+struct SurfacePlanes {
+    enum class Value : std::uint8_t {
+        InverseW,  ///< itself, 1/m
+        U,         ///< place in the texture, shares of its width
+        V,         ///< down, shares of its height
+        HazeShare, ///< 0..1
+        Red,       ///< of a white texel under the light, less what haze hides; levels, 255 = full, may be more
+        Green,
+        Blue
+    };
+    static constexpr std::size_t count = 8; ///< for registers; the last one is none
+
+    // In the order of Value.
+    alignas(32) std::array<float, count> base{}; ///< at the middle of first_px
+    alignas(32) std::array<float, count> per_x{};
+    alignas(32) std::array<float, count> per_y{};
+    alignas(32) std::array<float, count> min{}; ///< of the values themselves at the corners
+    alignas(32) std::array<float, count> max{};
+    glm::ivec2 first_px{0};
+    const MeshTexture* texture = nullptr;
+    std::array<std::uint16_t, 3> haze{}; ///< red, green, blue, 1/128 level
+};
+
 /// What only some triangles need.
 struct TriangleExtra {
     /// Pieces with DepthUse::OnGround are nearer by the slope of their depth over so many pixels.
@@ -195,6 +221,7 @@ struct Triangle {
     std::int32_t last_row = 0;
     ColourGradients gradients;
     std::uint32_t extra = none;      ///< index into TriangleList::extras, or none
+    std::uint32_t surface = none;    ///< index into TriangleList::surfaces, or none
     MipSelection texture;            ///< for Fill::Texture
     InverseDepthPlane inverse_depth; ///< of a triangle with detail texture
     std::uint16_t group = 0;         ///< depth group, from 1; 0: painted without depth

@@ -54,6 +54,19 @@ void add_overlay(const scene::OverlayDraw& overlay, std::span<const std::uint32_
     }
 }
 
+/// Says which texture a triangle has that is added next.
+void set_surface(const std::array<std::uint32_t, 3>& corners, const DrawSlice& slice, const FlatColour& flat,
+    TriangleSurface& surface, TriangleSetup& setup) {
+    const std::uint32_t texture = slice.of_model[corners[0]].texture;
+    if (texture == 0 || (flat.is_smooth() ? slice.tints.smooth : slice.tints.flat) != 0) {
+        setup.set_surface(nullptr);
+        return;
+    }
+    surface.texture = &slice.textures[texture - 1];
+    for (std::size_t k = 0; k < 3; ++k) { surface.places[k] = slice.of_model[corners[k]].on_texture; }
+    setup.set_surface(&surface);
+}
+
 /// How often the ground's sample spacing is doubled to reach the longest edge of a triangle: log2 of their ratio.
 float mesh_level(const glm::vec3& a_m, const glm::vec3& b_m, const glm::vec3& c_m, float sample_spacing_m) {
     const auto across_m = [](const glm::vec3& from_m, const glm::vec3& to_m) {
@@ -150,6 +163,7 @@ void TriangleBinner::make_batches() {
 void TriangleBinner::set_up(const FrameInput& input, Batch& batch, TriangleSetup& setup) {
     batch.list.triangles.clear();
     batch.list.extras.clear();
+    batch.list.surfaces.clear();
     const FramePlan& plan = input.plan;
     const auto position_m = [&](std::uint32_t index) {
         return index < plan.ground.vertices.size()
@@ -166,6 +180,8 @@ void TriangleBinner::set_up(const FrameInput& input, Batch& batch, TriangleSetup
             continue;
         }
         const VertexOutputs corners{vertices_, clip_, {}, lit_};
+        TriangleSurface surface;
+        if (!slice.textures.empty()) { surface.haze = haze_before(glm::vec3(plan.parts[slice.first_part][3]), light_); }
         const auto vertex = [&](std::uint32_t index) { return static_cast<std::uint32_t>(slice.first_vertex + index); };
         for (std::size_t i = 0; i + 2 < slice.indices.size(); i += 3) {
             const std::uint32_t a = slice.indices[i];
@@ -177,8 +193,10 @@ void TriangleBinner::set_up(const FrameInput& input, Batch& batch, TriangleSetup
             setup.set_source(source++);
             const FlatColour* const flat =
                 slice.is_aircraft ? &flat_[static_cast<std::size_t>(slice.first_flat + a)] : nullptr;
+            if (!slice.textures.empty()) { set_surface({a, b, c}, slice, *flat, surface, setup); }
             setup.add(corners, {vertex(a), vertex(b), vertex(c)}, flat, batch.list);
         }
+        setup.set_surface(nullptr);
     }
     bin(batch);
 }
@@ -234,7 +252,8 @@ void TriangleBinner::append(const Batch& batch, int tile, std::vector<TileTriang
     const auto i = static_cast<std::size_t>(tile);
     for (std::uint32_t k = batch.tile_first[i]; k < batch.tile_first[i + 1]; ++k) {
         const Triangle& triangle = batch.list.triangles[batch.by_tile[k]];
-        list.push_back({&triangle, triangle.extra == Triangle::none ? nullptr : &batch.list.extras[triangle.extra]});
+        list.push_back({&triangle, triangle.extra == Triangle::none ? nullptr : &batch.list.extras[triangle.extra],
+            triangle.surface == Triangle::none ? nullptr : &batch.list.surfaces[triangle.surface]});
     }
 }
 

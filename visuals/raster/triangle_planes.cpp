@@ -208,6 +208,47 @@ void SetEdgesAndGradients(const TopDownVertices& vertices, double max_per_px, Tr
     if (triangle.has_detail_texture) { set_inverse_depth(vertices, base, triangle); }
 }
 
+// -- Triangles of meshes with textures.
+
+void SetSurfacePlanes(
+    const std::array<const ScreenVertex*, 3>& corners, const SurfaceCorners& values, SurfacePlanes& planes) {
+    const Reals real;
+    const Floats floats;
+    const auto& [a, b, c] = corners;
+    constexpr double px_a_step = 1.0 / ScreenVertex::per_px;
+    const auto way = [&](std::int32_t from, std::int32_t to) { return static_cast<double>(to - from); };
+    const double area = way(a->x, b->x) * way(a->y, c->y) - way(a->x, c->x) * way(a->y, b->y);
+    const double to_px = static_cast<double>(ScreenVertex::per_px) / area;
+    const auto set = [&](double value) HWY_ATTR { return hn::Set(real, value); };
+    const auto b_x = set(way(a->x, b->x) * to_px);
+    const auto b_y = set(way(a->y, b->y) * to_px);
+    const auto c_x = set(way(a->x, c->x) * to_px);
+    const auto c_y = set(way(a->y, c->y) * to_px);
+    const auto a_x = set(a->x * px_a_step - planes.first_px.x);
+    const auto a_y = set(a->y * px_a_step - planes.first_px.y);
+    for (std::size_t i = 0; i < SurfacePlanes::count; i += hn::Lanes(real)) {
+        const auto load = [&](std::size_t k) HWY_ATTR { return hn::LoadU(floats, values[k].data() + i); };
+        const auto over_w = [&](std::size_t k) HWY_ATTR {
+            return hn::Mul(hn::PromoteTo(real, load(k)), set(static_cast<double>(corners[k]->inverse_w)));
+        };
+        const auto at_a = over_w(0);
+        const auto to_b = hn::Sub(over_w(1), at_a);
+        const auto to_c = hn::Sub(over_w(2), at_a);
+        const auto per_x = hn::Sub(hn::Mul(to_b, c_y), hn::Mul(to_c, b_y));
+        const auto per_y = hn::Sub(hn::Mul(to_c, b_x), hn::Mul(to_b, c_x));
+        const auto base = hn::Sub(hn::Sub(at_a, hn::Mul(per_x, a_x)), hn::Mul(per_y, a_y));
+        const auto store = [&](hn::Vec<Reals> from, std::array<float, SurfacePlanes::count>& to)
+                               HWY_ATTR { hn::StoreU(hn::DemoteTo(floats, from), floats, to.data() + i); };
+        store(base, planes.base);
+        store(per_x, planes.per_x);
+        store(per_y, planes.per_y);
+        hn::StoreU(hn::Min(hn::Min(load(0), load(1)), load(2)), floats, planes.min.data() + i);
+        hn::StoreU(hn::Max(hn::Max(load(0), load(1)), load(2)), floats, planes.max.data() + i);
+    }
+    planes.min[0] = std::min(std::min(a->inverse_w, b->inverse_w), c->inverse_w);
+    planes.max[0] = std::max(std::max(a->inverse_w, b->inverse_w), c->inverse_w);
+}
+
 // -- Triangles that no sample lies in.
 
 /// For each sample the only row, and the columns, where the triangle may cover it.
@@ -418,6 +459,13 @@ ColourGradients constant_gradients(const std::array<float, 3>& rgb) {
         gradients.max[i] = gradients.min[i];
     }
     return gradients;
+}
+
+HWY_EXPORT(SetSurfacePlanes);
+
+void set_surface_planes(
+    const std::array<const ScreenVertex*, 3>& corners, const SurfaceCorners& values, SurfacePlanes& planes) {
+    HWY_DYNAMIC_DISPATCH(SetSurfacePlanes)(corners, values, planes);
 }
 
 HWY_EXPORT(FitAffineTexture);

@@ -40,6 +40,13 @@ void set_edges_and_gradients(const TopDownVertices& vertices, double max_per_px,
 /// The levels of a triangle that has one colour everywhere.
 ColourGradients constant_gradients(const std::array<float, 3>& rgb);
 
+/// What SurfacePlanes::Value lists, at each corner, but 1 for the inverse of w.
+using SurfaceCorners = std::array<std::array<float, SurfacePlanes::count>, 3>;
+
+/// Fills in the planes of a triangle and their limits, from its corners in any order.
+void set_surface_planes(
+    const std::array<const ScreenVertex*, 3>& corners, const SurfaceCorners& values, SurfacePlanes& planes);
+
 // -- Planes of textured triangles.
 
 /// The planes over the picture by which textured triangles are painted: ColourGradients whose first two values are

@@ -2,10 +2,12 @@
 // (triangle.h) with the edges and gradients of triangle_planes.cpp. Next: triangle_binner.cpp.
 #include "visuals/raster/triangle_setup.h"
 
+#include "visuals/raster/mesh_texture.h"
 #include "visuals/raster/projection.h"
 #include "visuals/raster/triangle.h"
 #include "visuals/raster/triangle_planes.h"
 
+#include <glm/common.hpp>
 #include <glm/mat3x3.hpp>
 #include <glm/mat4x4.hpp>
 #include <glm/matrix.hpp>
@@ -140,10 +142,14 @@ void TriangleSetup::add(const VertexOutputs& corners, const std::array<std::uint
     if (!is_cut && style_.culls_back_faces && doubled_area(vertices[a], vertices[b], vertices[c]) >= 0) { return; }
     flat_ = flat != nullptr && !flat->is_smooth() ? flat : nullptr;
     extra_ = Triangle::none;
-    fill_ = fill_of({&vertices[a], &vertices[b], &vertices[c]}, is_cut);
+    fill_ = surface_ != nullptr ? style_.fill : fill_of({&vertices[a], &vertices[b], &vertices[c]}, is_cut);
     if (flat != nullptr && flat_ == nullptr && !corners.lit.empty()) {
         fill_ = Fill::Lit;
         lit_ = {&corners.lit[a], &corners.lit[b], &corners.lit[c]};
+    }
+    if (surface_ != nullptr) {
+        places_ = surface_->places;
+        flat_haze_share_ = vertices[a].value[3];
     }
     if (!is_cut && style_.group == 0 && style_.clip_planes.empty()) {
         if (fill_ == Fill::Gouraud) {
@@ -155,8 +161,8 @@ void TriangleSetup::add(const VertexOutputs& corners, const std::array<std::uint
             return;
         }
     }
-    const std::array<ClipVertex, 3> three{ClipVertex{vertices[a], corners.clip[a]},
-        ClipVertex{vertices[b], corners.clip[b]}, ClipVertex{vertices[c], corners.clip[c]}};
+    const std::array<ClipVertex, 3> three{ClipVertex{vertices[a], corners.clip[a], places_[0]},
+        ClipVertex{vertices[b], corners.clip[b], places_[1]}, ClipVertex{vertices[c], corners.clip[c], places_[2]}};
     if (style_.group != 0 || fill_ != Fill::Gouraud || !style_.clip_planes.empty()) { add_extra(three, list); }
     if (is_cut) {
         add_cut(three, list);
@@ -180,6 +186,7 @@ void TriangleSetup::add_overlay(
     if (((a.outcode | b.outcode | c.outcode) & beyond_range) != 0) { return; }
     fill_ = style_.fill;
     flat_ = nullptr;
+    surface_ = nullptr;
     extra_ = Triangle::none;
     is_overlay_ = true;
     add_placed(a, b, c, list);
@@ -264,6 +271,8 @@ void TriangleSetup::cut(const glm::dvec3& by_clip, double offset) {
         for (std::size_t k = 0; k < corner.vertex.value.size(); ++k) {
             corner.vertex.value[k] = between(kept.vertex.value[k], lost.vertex.value[k]);
         }
+        corner.on_texture = {
+            between(kept.on_texture.x, lost.on_texture.x), between(kept.on_texture.y, lost.on_texture.y)};
         scratch_.push_back(corner);
     }
     polygon_.swap(scratch_);
@@ -288,6 +297,7 @@ void TriangleSetup::add_cut(std::span<const ClipVertex> corners, TriangleList& l
         const auto& a = polygon_[0].vertex;
         const auto& b = polygon_[i].vertex;
         const auto& c = polygon_[i + 1].vertex;
+        places_ = {polygon_[0].on_texture, polygon_[i].on_texture, polygon_[i + 1].on_texture};
         if (!style_.culls_back_faces || doubled_area(a, b, c) < 0) { add_placed(a, b, c, list); }
     }
 }
@@ -332,7 +342,10 @@ void TriangleSetup::add_placed(
     triangle.source = source_;
     triangle.has_detail_texture =
         style_.has_detail_texture && (a.value[3] > 0.0F || b.value[3] > 0.0F || c.value[3] > 0.0F);
-    if (flat_ != nullptr) {
+    if (surface_ != nullptr) {
+        set_edges(corners, triangle);
+        add_surface({&a, &b, &c}, triangle, list);
+    } else if (flat_ != nullptr) {
         set_edges(corners, triangle);
         triangle.gradients = constant_gradients(flat_->rgb);
     } else if (fill_ == Fill::TextureInPerspective || fill_ == Fill::Lit) {
@@ -347,6 +360,34 @@ void TriangleSetup::add_placed(
         const bool has_slivers = reach_ > 0 && !is_overlay_;
         set_edges_and_gradients(corners, has_slivers ? sliver_per_px : any_per_px, triangle);
     }
+}
+
+/// Gives a triangle the planes of its texture.
+void TriangleSetup::add_surface(
+    const std::array<const ScreenVertex*, 3>& corners, Triangle& triangle, TriangleList& list) const {
+    constexpr float max_place = 1e6F; // beyond it nothing is left of single precision
+    SurfaceCorners values;
+    const glm::vec2 least = glm::min(glm::min(places_[0], places_[1]), places_[2]);
+    // Pictures repeat, with their mirror image in between: a whole number of pairs is left out.
+    const auto pairs_of = [&](float from, models::TextureWrap wrap) {
+        return wrap == models::TextureWrap::Clamp ? 0.0F : 2.0F * std::floor(0.5F * from);
+    };
+    const models::SurfaceTexture& texture = surface_->texture->texture;
+    const glm::vec2 left_out(pairs_of(least.x, texture.wrap_u), pairs_of(least.y, texture.wrap_v));
+    for (std::size_t k = 0; k < 3; ++k) {
+        const ScreenVertex& corner = *corners[k];
+        const auto sane = [](float place) { return std::abs(place) <= max_place ? place : 0.0F; };
+        const bool is_flat = flat_ != nullptr;
+        const auto level = [&](std::size_t i) { return is_flat ? flat_->rgb[i] : corner.value[i]; };
+        values[k] = {1.0F, sane(places_[k].x - left_out.x), sane(places_[k].y - left_out.y),
+            is_flat ? flat_haze_share_ : corner.value[3], level(0), level(1), level(2), 0.0F};
+    }
+    triangle.surface = static_cast<std::uint32_t>(list.surfaces.size());
+    SurfacePlanes& planes = list.surfaces.emplace_back();
+    planes.first_px = {triangle.left, triangle.first_row};
+    planes.texture = surface_->texture;
+    planes.haze = surface_->haze;
+    set_surface_planes(corners, values, planes);
 }
 
 } // namespace octant::visuals::raster

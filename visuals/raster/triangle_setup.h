@@ -6,6 +6,7 @@
 #include "visuals/raster/vertex_stage.h"
 #include "visuals/scene/frame_plan.h"
 
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
@@ -31,10 +32,18 @@ struct DrawStyle {
     std::span<const glm::vec4> clip_planes{}; ///< as scene::Clip
 };
 
+/// The texture of a triangle.
+struct TriangleSurface {
+    const MeshTexture* texture = nullptr;
+    std::array<glm::vec2, 3> places{};   ///< of its corners in the texture, as scene::ModelVertex::on_texture
+    std::array<std::uint16_t, 3> haze{}; ///< as SurfacePlanes
+};
+
 /// Triangles of a part of a plan, in painting order.
 struct TriangleList {
     std::vector<Triangle> triangles;
     std::vector<TriangleExtra> extras;
+    std::vector<SurfacePlanes> surfaces;
 };
 
 /// Projects triangles to the screen: clips them, and computes their edges and gradients. One instance for each thread.
@@ -52,6 +61,10 @@ public:
     /// The level in the mesh display (FramePlan::mesh_display) of all triangles added from now on.
     void set_mesh_level(float level) { mesh_level_ = level; }
 
+    /// The texture of the triangle that is added next, of which all corners' colours and `flat` are those of a white
+    /// texel; null = it has none. Must outlive that call.
+    void set_surface(const TriangleSurface* surface) { surface_ = surface; }
+
     /// Appends a triangle, given by three indices into `corners`, if any of it may be visible; several triangles if the
     /// view cuts it. `flat`: the colour of its first corner if it is a flat polygon of an aircraft, else null.
     void add(const VertexOutputs& corners, const std::array<std::uint32_t, 3>& triangle, const FlatColour* flat,
@@ -65,6 +78,7 @@ private:
     struct ClipVertex {
         ScreenVertex vertex;
         ClipPosition clip;
+        glm::vec2 on_texture{0.0F};
     };
 
     void add_cut(std::span<const ClipVertex> corners, TriangleList& list);
@@ -73,6 +87,7 @@ private:
     bool add_affine_triangle(const std::array<const ScreenVertex*, 3>& corners, TriangleList& list);
     Fill fill_of(const std::array<const ScreenVertex*, 3>& corners, bool is_cut) const;
     void add_extra(std::span<const ClipVertex, 3> corners, TriangleList& list);
+    void add_surface(const std::array<const ScreenVertex*, 3>& corners, Triangle& triangle, TriangleList& list) const;
 
     const Projection& projection_;
     const scene::FramePlan& plan_;
@@ -86,9 +101,12 @@ private:
     // Of the triangle at hand.
     Fill fill_ = Fill::Gouraud;
     const FlatColour* flat_ = nullptr;      ///< of a flat polygon of an aircraft
+    float flat_haze_share_ = 0.0F;          ///< of that polygon, if it has a texture
     std::array<const LitVertex*, 3> lit_{}; ///< of a smooth one that is lit in each pixel
     std::uint32_t extra_ = Triangle::none;
-    MipSelection mip_selection_; ///< of an affine textured triangle
+    const TriangleSurface* surface_ = nullptr;
+    std::array<glm::vec2, 3> places_{}; ///< as TriangleSurface, of the part at hand
+    MipSelection mip_selection_;        ///< of an affine textured triangle
     // Its polygon while the view cuts it.
     std::vector<ClipVertex> polygon_;
     std::vector<ClipVertex> scratch_;

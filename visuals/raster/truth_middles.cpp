@@ -2,6 +2,8 @@
 // picture was painted of (triangle_binner.cpp). Next: truth_surfaces.cpp.
 #include "visuals/raster/truth_middles.h"
 
+#include "visuals/raster/mesh_texture.h"
+
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -75,6 +77,7 @@ void for_each_row(const TileTriangle& one, const Tile& tile, std::uint32_t rows,
     const std::int64_t end = std::min(triangle.right - tile.first_px.x, tile.size_px.x - 1) + 1;
     if (first > last || left >= end) { return; }
     const bool is_cut = one.extra != nullptr && one.extra->cut_count > 0;
+    const bool has_holes = one.surface != nullptr && one.surface->texture->has_holes;
     const glm::ivec2 from_px = tile.first_px + glm::ivec2(0, first);
     const int first_lower = first_row_of(triangle.middle) - tile.first_px.y;
     EdgeCrossing whole(triangle.whole, triangle.top, from_px);
@@ -90,6 +93,9 @@ void for_each_row(const TileTriangle& one, const Tile& tile, std::uint32_t rows,
             std::uint64_t columns = bits_of(std::max(triangle.middle_is_left ? bend : through, left),
                 std::min(triangle.middle_is_left ? through : bend, end));
             if (columns != 0 && is_cut) { columns &= columns_within(*one.extra, tile, row); }
+            if (columns != 0 && has_holes) {
+                columns = columns_without_holes(*one.surface, tile.first_px, row, columns);
+            }
             if (columns != 0) { visit(row, columns); }
         }
         whole.next_row();

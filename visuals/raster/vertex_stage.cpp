@@ -12,6 +12,9 @@
 #include <hwy/foreach_target.h>
 // clang-format on
 
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
 #include <algorithm>
 #include <array>
 #include <cassert>
@@ -229,39 +232,64 @@ void ProjectTextured(std::span<const models::ColourVertex> from, const Projectio
     });
 }
 
-// -- Vertices of aircraft, which lie among other values: each value is gathered.
+// -- Vertices of aircraft.
 
-/// Vertices of aircraft, as many as a register holds; the last one again where there are fewer.
+/// A register of four values each of every fourth vertex, where the next vertex lies `stride` values behind.
+template <class Tag>
+HWY_INLINE hn::Vec<Tag> four_of_each(Tag tag, const float* from, std::size_t stride) {
+    if constexpr (hn::MaxLanes(tag) == 4) {
+        return hn::LoadU(tag, from);
+    } else {
+        const hn::Half<Tag> half;
+        return hn::Combine(
+            tag, four_of_each(half, from + hn::MaxLanes(half) * stride, stride), four_of_each(half, from, stride));
+    }
+}
+
+/// Vertices of aircraft, as many as a register holds: a register for each of their members' values.
 class ModelBlock {
 public:
-    HWY_INLINE ModelBlock(const scene::ModelVertex* from, std::size_t count) : from_(from) {
-        alignas(64) static constexpr auto firsts = [] {
-            std::array<std::int32_t, at_once> values{};
-            for (std::size_t i = 0; i < at_once; ++i) { values[i] = static_cast<std::int32_t>(i) * stride; }
-            return values;
-        }();
-        const auto last = hn::Set(Whole(), static_cast<std::int32_t>(count - 1) * stride);
-        first_ = hn::Min(hn::Load(Whole(), firsts.data()), last);
+    HWY_INLINE explicit ModelBlock(const scene::ModelVertex* from) {
+        const auto* const values = reinterpret_cast<const float*>(from);
+        for (std::size_t i = 0; i < count; i += 4) {
+            // The first, second, third and last vertex of each four.
+            const auto vertex = [&](std::size_t k)
+                                    HWY_ATTR { return four_of_each(Reals(), values + k * count + i, count); };
+            transpose({vertex(0), vertex(1), vertex(2), vertex(3)}, i);
+        }
     }
 
     /// A member that takes four bytes, by its offset.
     HWY_INLINE hn::Vec<Bits> bits(std::size_t offset) const {
-        return hn::GatherIndex(Bits(), reinterpret_cast<const std::uint32_t*>(from_) + offset / sizeof(float), first_);
+        return hn::BitCast(Bits(), values_[offset / sizeof(float)]);
     }
 
     /// A glm::vec3.
     HWY_INLINE Triple triple(std::size_t offset) const {
-        const auto value = [&](std::size_t i)
-                               HWY_ATTR { return hn::BitCast(Reals(), bits(offset + i * sizeof(float))); };
-        return {value(0), value(1), value(2)};
+        const std::size_t i = offset / sizeof(float);
+        return {values_[i], values_[i + 1], values_[i + 2]};
     }
 
 private:
-    static_assert(sizeof(scene::ModelVertex) % sizeof(float) == 0);
-    static constexpr std::int32_t stride = sizeof(scene::ModelVertex) / sizeof(float);
+    static constexpr std::size_t count = sizeof(scene::ModelVertex) / sizeof(float);
+    static_assert(count % 4 == 0 && count * sizeof(float) == sizeof(scene::ModelVertex));
 
-    const scene::ModelVertex* from_;
-    hn::Vec<Whole> first_; ///< the place of a vertex's first value, in values
+    /// Four values of each vertex, from the i-th on, in four registers.
+    HWY_INLINE void transpose(const std::array<Real, 4>& vertices, std::size_t i) {
+        const Reals reals;
+        const auto even = [&](std::size_t k) HWY_ATTR {
+            return std::array{hn::InterleaveLower(reals, vertices[k], vertices[k + 2]),
+                hn::InterleaveUpper(reals, vertices[k], vertices[k + 2])};
+        };
+        const auto first = even(0);
+        const auto second = even(1);
+        for (std::size_t k = 0; k < 2; ++k) {
+            values_[i + 2 * k] = hn::InterleaveLower(reals, first[k], second[k]);
+            values_[i + 2 * k + 1] = hn::InterleaveUpper(reals, first[k], second[k]);
+        }
+    }
+
+    std::array<Real, count> values_;
 };
 
 /// From the axes of each vertex's part to world axes with the eye subtracted.
@@ -318,14 +346,20 @@ HWY_INLINE Triple tinted(hn::Vec<Bits> colour, std::uint32_t tint) {
         mixed(own.x, level<0>(over), share), mixed(own.y, level<8>(over), share), mixed(own.z, level<16>(over), share)};
 }
 
-/// Colours under the light on surfaces that face `outwards`, behind haze; 0..255.
-HWY_INLINE Triple lit(const Triple& rgb_255, const Triple& outwards, const Light& light, const Haze& haze) {
+/// Colours under the light on surfaces that face `outwards`, behind haze; 0..255. Those of textured ones are multiplied
+/// by texels before anything else happens to them: they keep what the haze leaves, and may be more than full.
+HWY_INLINE Triple lit(
+    const Triple& rgb_255, const Triple& outwards, const Light& light, const Haze& haze, hn::Mask<Reals> is_textured) {
+    constexpr float most = 380.0F; // fits the painter's numbers
     const Triple to_sun{set(light.to_sun.x), set(light.to_sun.y), set(light.to_sun.z)};
     const auto towards_sun = hn::Max(dot(outwards, to_sun), hn::Zero(Reals()));
     const auto seen = [&](Real own, glm::length_t i) HWY_ATTR {
         const auto sum = hn::Add(set(light.ambient[i]), hn::Mul(set(light.sunlight[i]), towards_sun));
-        const auto under_light = hn::Min(hn::Mul(own, sum), set(max_level));
-        return mixed(under_light, haze.rgb_255[static_cast<std::size_t>(i)], haze.share);
+        const auto under_light = hn::Mul(own, sum);
+        const auto in_haze =
+            mixed(hn::Min(under_light, set(max_level)), haze.rgb_255[static_cast<std::size_t>(i)], haze.share);
+        const auto left = hn::Mul(hn::Min(under_light, set(most)), hn::Sub(set(1.0F), haze.share));
+        return hn::IfThenElse(is_textured, left, in_haze);
     };
     return {seen(rgb_255.x, 0), seen(rgb_255.y, 1), seen(rgb_255.z, 2)};
 }
@@ -341,6 +375,13 @@ HWY_INLINE hn::Mask<Bits> is_smooth(std::span<const std::uint32_t> smooth, hn::V
     const auto values = hn::GatherIndex(bits, smooth.data(), place);
     const auto bit = hn::Shl(hn::Set(bits, 1U), hn::And(polygon, hn::Set(bits, 31U)));
     return hn::And(is_known, hn::Ne(hn::And(values, bit), hn::Zero(bits)));
+}
+
+/// Whether each vertex has a texture.
+HWY_INLINE hn::Mask<Reals> has_texture_of(const ModelBlock& block, const AircraftDrawState& state) {
+    if (!state.has_textures) { return hn::MaskFromVec(hn::Zero(Reals())); }
+    const auto texture = block.bits(offsetof(scene::ModelVertex, texture));
+    return hn::RebindMask(Reals(), hn::Ne(texture, hn::Zero(Bits())));
 }
 
 /// Writes what vertices that are lit in each pixel need.
@@ -363,22 +404,31 @@ void ProjectAircraft(std::span<const scene::ModelVertex> from, const AircraftDra
     using scene::ModelVertex;
     const Bits bits;
     VertexStore store;
+    std::array<ModelVertex, at_once> last{};
     alignas(64) std::array<float, 4 * at_once> flat;
     for (std::size_t first = 0; first < from.size(); first += at_once) {
         const std::size_t count = std::min(at_once, from.size() - first);
-        const ModelBlock block(from.data() + first, count);
+        const ModelVertex* vertices = from.data() + first;
+        if (count < at_once) {
+            std::copy_n(vertices, count, last.begin());
+            vertices = last.data();
+        }
+        const ModelBlock block(vertices);
         const PartTurns turns(state.parts, block.bits(offsetof(ModelVertex, part)));
         const Triple at = turns.place(block.triple(offsetof(ModelVertex, position_m)));
         store.put(at, projection);
         const Haze haze(at, light);
         const Triple own = tinted(block.bits(offsetof(ModelVertex, colour)), state.tints.smooth);
         const Triple normal = turns.direction(block.triple(offsetof(ModelVertex, normal)));
-        const Triple of_corner = lit(own, normal, light, haze);
-        store.put_values(of_corner.x, of_corner.y, of_corner.z, hn::Zero(Reals()));
+        const auto has_texture = has_texture_of(block, state);
+        const auto textured = [&](std::uint32_t tint)
+                                  HWY_ATTR { return tint == 0 ? has_texture : hn::MaskFromVec(hn::Zero(Reals())); };
+        const Triple of_corner = lit(own, normal, light, haze, textured(state.tints.smooth));
+        store.put_values(of_corner.x, of_corner.y, of_corner.z, haze.share);
         store.copy(count, first, to);
         const Triple face_normal = turns.direction(block.triple(offsetof(ModelVertex, face_normal)));
         const Triple face_own = tinted(block.bits(offsetof(ModelVertex, face_colour)), state.tints.flat);
-        const Triple of_face = lit(face_own, face_normal, light, haze);
+        const Triple of_face = lit(face_own, face_normal, light, haze, textured(state.tints.flat));
         const auto turned_away = hn::Gt(dot(face_normal, at), hn::Mul(set(min_turn), haze.distance_m));
         const auto smooth = is_smooth(state.smooth, block.bits(offsetof(ModelVertex, polygon)));
         const auto flags = hn::Or(hn::IfThenElseZero(smooth, hn::Set(bits, FlatColour::smooth)),
@@ -413,6 +463,16 @@ Light light_of(const scene::FramePlan& plan) {
     return {plan.ambient, plan.sunlight, plan.to_sun, plan.haze.colour,
         visibility_m > 0.0F ? 1.0F / visibility_m : 0.0F, plan.haze.falloff_per_m, plan.haze.horizontal_to_sun,
         plan.haze.sunward_colour};
+}
+
+std::array<std::uint16_t, 3> haze_before(const glm::vec3& at_m, const Light& light) {
+    const float level_m = at_m.x * light.horizontal_to_sun.x + at_m.y * light.horizontal_to_sun.y;
+    const float towards = std::max(level_m / std::max(glm::length(at_m), 1e-6F), 0.0F);
+    const glm::vec3 colour = glm::mix(light.haze, light.sunward_colour, towards * towards);
+    const auto packed = [](float share) {
+        return static_cast<std::uint16_t>(std::clamp(share, 0.0F, 1.0F) * 255.0F * 128.0F + 0.5F);
+    };
+    return {packed(colour.x), packed(colour.y), packed(colour.z)};
 }
 
 float exp_of_minus(float x) { return HWY_DYNAMIC_DISPATCH(ExpOfMinus)(x); }

@@ -6,6 +6,7 @@
 
 #include <glm/mat4x4.hpp>
 
+#include <array>
 #include <cstdint>
 #include <span>
 
@@ -24,6 +25,9 @@ struct Light {
 };
 
 Light light_of(const scene::FramePlan& plan);
+
+/// The colour of the haze before a place in world axes with the eye subtracted, 1/128 level.
+std::array<std::uint16_t, 3> haze_before(const glm::vec3& at_m, const Light& light);
 
 /// exp(-x) for x >= 0 as the vertex stage computes it: by sums and products alone, so that all processors agree.
 /// Relative error below 4e-6: that of the product x * log2(e) at x = 80, where nothing is left to see.
@@ -48,6 +52,7 @@ struct AircraftDrawState {
     std::span<const glm::mat4> parts;
     std::span<const std::uint32_t> smooth; ///< words, from the aircraft's first
     scene::PolygonTints tints{};
+    bool has_textures = false;
 };
 
 /// Projects vertices of ground, shadows and sky and hazes their colours, except those of the sky, which include it.
@@ -58,7 +63,8 @@ void project_coloured(std::span<const models::ColourVertex> from, const Projecti
 void project_textured(std::span<const models::ColourVertex> from, const Projection& projection, const Light& light,
     const TexelTransform& to_texels, const VertexOutputs& to);
 
-/// Projects vertices of an aircraft, lights and hazes them.
+/// Projects vertices of an aircraft, lights and hazes them. Of vertices with a texture the colours are those of a white
+/// texel as SurfacePlanes has them, without haze; their fourth value is the haze's share.
 void project_aircraft(std::span<const scene::ModelVertex> from, const AircraftDrawState& state,
     const Projection& projection, const Light& light, const VertexOutputs& to);
 

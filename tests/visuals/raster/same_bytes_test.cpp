@@ -5,6 +5,8 @@
 
 #include <cstddef>
 #include <hwy/targets.h>
+#include <memory>
+#include <span>
 
 namespace octant::visuals::raster {
 
@@ -72,19 +74,21 @@ scene::GroundTexture put_on_noise(FlatPlan& plan) {
 }
 
 /// Compares pictures of all sample counts on one thread and on several.
-void check_threads(const scene::FramePlan& plan, const scene::GroundTexture* texture) {
+void check_threads(const scene::FramePlan& plan, const scene::GroundTexture* texture,
+    std::span<const scene::ModelBuffers> models = {}) {
     for (const int samples : {1, 4, 16}) {
-        const scene::Picture one = drawn(plan, bytes_size_px, samples, 1, texture);
-        CHECK(drawn(plan, bytes_size_px, samples, 2, texture).rgba == one.rgba);
-        CHECK(drawn(plan, bytes_size_px, samples, 5, texture).rgba == one.rgba);
+        const scene::Picture one = drawn(plan, bytes_size_px, samples, 1, texture, models);
+        CHECK((drawn(plan, bytes_size_px, samples, 2, texture, models).rgba == one.rgba));
+        CHECK((drawn(plan, bytes_size_px, samples, 5, texture, models).rgba == one.rgba));
     }
 }
 
 /// Compares pictures of all sample counts by all instruction sets of the processor.
-void check_sets(const scene::FramePlan& plan, const scene::GroundTexture* texture) {
+void check_sets(const scene::FramePlan& plan, const scene::GroundTexture* texture,
+    std::span<const scene::ModelBuffers> models = {}) {
     const std::int64_t all = hwy::SupportedTargets();
     for (const int samples : {1, 4, 16}) {
-        const scene::Picture best = drawn(plan, bytes_size_px, samples, 1, texture);
+        const scene::Picture best = drawn(plan, bytes_size_px, samples, 1, texture, models);
         int sets = 0;
         for (int bit = 0; bit < 63; ++bit) {
             const std::int64_t target = std::int64_t{1} << bit;
@@ -92,7 +96,7 @@ void check_sets(const scene::FramePlan& plan, const scene::GroundTexture* textur
             hwy::SetSupportedTargetsForTest(target);
             hwy::GetChosenTarget().Update(hwy::SupportedTargets());
             CAPTURE(samples, hwy::TargetName(target));
-            CHECK((drawn(plan, bytes_size_px, samples, 1, texture).rgba == best.rgba));
+            CHECK((drawn(plan, bytes_size_px, samples, 1, texture, models).rgba == best.rgba));
             ++sets;
         }
         hwy::SetSupportedTargetsForTest(0);
@@ -101,7 +105,66 @@ void check_sets(const scene::FramePlan& plan, const scene::GroundTexture* textur
     }
 }
 
+/// An aircraft of triangles of all sizes, most of which have one of three textures, some with holes, in painting order,
+/// then by depth, then as glass.
+scene::ModelBuffers put_textured_aircraft(FlatPlan& plan) {
+    RandomGenerator dice(31);
+    scene::ModelBuffers model;
+    for (int i = 0; i < 3; ++i) {
+        models::TextureLevel noise{20 + 7 * i, 12, {}};
+        for (int k = 0; k < 4 * noise.width * noise.height; ++k) {
+            noise.rgba.push_back(static_cast<std::uint8_t>(below(dice, 256)));
+        }
+        models::SurfaceTexture texture{
+            std::make_shared<const models::TexturePicture>(models::texture_picture("noise", noise))};
+        texture.wrap_u = static_cast<models::TextureWrap>(i);
+        texture.alpha = static_cast<models::TextureAlpha>(i);
+        model.textures.push_back(texture);
+    }
+    const auto number = [&](float from, float to) { return from + (to - from) * static_cast<float>(dice.next()); };
+    for (std::uint32_t i = 0; i < 900; ++i) {
+        const float depth_m = number(-3.0F, 60.0F);
+        const glm::vec2 middle(number(-1.0F, 1.0F), number(-1.0F, 1.0F));
+        const float reach_m = i % 30 == 0 ? 20.0F : number(0.1F, 4.0F);
+        for (std::uint32_t k = 0; k < 3; ++k) {
+            scene::ModelVertex vertex;
+            const glm::vec2 aside(number(-reach_m, reach_m), number(-reach_m, reach_m));
+            vertex.position_m = glm::vec3(middle * depth_m + aside, -depth_m - number(0.0F, reach_m));
+            vertex.normal = glm::vec3(number(-1.0F, 1.0F), 0.3F, 0.6F);
+            vertex.face_normal = glm::vec3(0.0F);
+            vertex.colour = vertex.face_colour = static_cast<std::uint32_t>(below(dice, 1U << 24)) | 0xff000000U;
+            vertex.part = i % 2;
+            vertex.polygon = i % 64;
+            vertex.on_texture = glm::vec2(number(-3.0F, 3.0F), number(-3.0F, 3.0F));
+            vertex.texture = i % 4;
+            model.indices.push_back(static_cast<std::uint32_t>(model.vertices.size()));
+            model.vertices.push_back(vertex);
+        }
+    }
+    using Content = scene::PaintStep::Content;
+    scene::FramePlan& all = plan.plan();
+    all.parts = {glm::mat4(1.0F), glm::mat4(1.0F)};
+    all.parts[1][3] = glm::vec4(0.3F, -0.2F, -1.0F, 1.0F);
+    all.smooth = {0x5a5a1234U, 0xffff0000U};
+    for (std::uint32_t i = 0; i < 3; ++i) { all.aircraft.push_back({.first_index = i * 900, .index_count = 900}); }
+    all.depth_boxes = {{glm::ivec2(0), bytes_size_px}};
+    all.steps.push_back({Content::Aircraft, 0, 1});
+    all.steps.push_back({Content::ClearDepth, 0, 1});
+    all.steps.push_back({Content::Aircraft, 1, 1, scene::PaintStep::no_clip, scene::DepthUse::Nearest});
+    all.steps.push_back({Content::Aircraft, 2, 1, scene::PaintStep::no_clip, scene::DepthUse::Nearest, 0.4F});
+    return model;
+}
+
 } // namespace
+
+TEST_CASE("textured aircraft have the same bytes on any number of threads and by all instruction sets") {
+    FlatPlan plan(bytes_size_px);
+    const scene::ModelBuffers model = put_textured_aircraft(plan);
+    put_in_haze(plan);
+    plan.plan().lights_pixels = GENERATE(false, true);
+    check_threads(plan.plan(), nullptr, std::span(&model, 1));
+    check_sets(plan.plan(), nullptr, std::span(&model, 1));
+}
 
 TEST_CASE("any number of threads makes the same bytes") {
     FlatPlan plan(bytes_size_px);
