@@ -112,11 +112,8 @@ TexturePicture texture_picture(std::string name, TextureLevel finest) {
     return picture;
 }
 
-TexturePicture halved(const TexturePicture& picture) {
-    TexturePicture smaller{.name = picture.name, .levels = {}, .is_opaque = picture.is_opaque};
-    const auto skipped = static_cast<std::ptrdiff_t>(picture.levels.size() > 1 ? 1 : 0);
-    smaller.levels.assign(picture.levels.begin() + skipped, picture.levels.end());
-    return smaller;
+void halve(TexturePicture& picture) {
+    if (picture.levels.size() > 1) { picture.levels.erase(picture.levels.begin()); }
 }
 
 } // namespace octant::models

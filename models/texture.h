@@ -16,7 +16,7 @@ struct TextureLevel {
     std::vector<std::uint8_t> rgba;
 };
 
-/// A picture that lies on surfaces, with its mip levels. It does not change once it is shared.
+/// A picture that lies on surfaces, with its mip levels. It does not change once all models are loaded.
 struct TexturePicture {
     std::string name; ///< of its file, for messages
     /// The finest one first, each half as wide and high as the one before (rounded down, at least 1), the last one of
@@ -55,7 +55,7 @@ struct SurfaceTexture {
 /// colours, by alpha. `finest` must have 4 * width * height bytes, at least one texel (asserted).
 TexturePicture texture_picture(std::string name, TextureLevel finest);
 
-/// A picture without the finest level of another; the same picture where that has one level only.
-TexturePicture halved(const TexturePicture& picture);
+/// Removes the finest level of a picture that has several.
+void halve(TexturePicture& picture);
 
 } // namespace octant::models

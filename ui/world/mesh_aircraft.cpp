@@ -5,6 +5,7 @@
 #include "models/polygons/file_axes.h"
 #include "models/repair/repair.h"
 #include "models/simplify/simplify.h"
+#include "sim/base/error.h"
 #include "sim/base/output_file.h"
 #include "sim/base/stopwatch.h"
 #include "ui/world/mesh_loader.h"
@@ -196,10 +197,11 @@ models::TriangleMesh finest_mesh(const refine::ProgressiveMesh& hierarchy) {
 
 /// A hierarchy from its file, or made of a mesh. Turning parts and transparent surfaces go to `aircraft`. All in axes
 /// of the file.
-RefineMesh hierarchy_in(const fs::path& file, const fs::path& cache, MeshAircraft& aircraft) {
+RefineMesh hierarchy_in(const fs::path& file, const fs::path& cache, std::shared_ptr<meshfile::TextureStore> textures,
+    MeshAircraft& aircraft) {
     const RefineMeshOptions input{.file = file.string(), .base = 0, .quiet = true};
     if (refine::is_progressive_file(file)) { return read_refine_mesh(input); }
-    const meshfile::ReadOptions options{.pictures = true, .backs = true};
+    const meshfile::ReadOptions options{.pictures = true, .textures = std::move(textures), .backs = true};
     meshfile::RotatingModel model;
     if (path_exists(file) && !is_library_file(file) && meshfile::is_mesh_file(file)) {
         model = meshfile::read_rotating_model(file, options);
@@ -212,14 +214,16 @@ RefineMesh hierarchy_in(const fs::path& file, const fs::path& cache, MeshAircraf
                          : cached_refine_mesh(cache, input, std::move(model.body));
 }
 
-MeshAircraft from_hierarchy(const fs::path& file, const std::string& setting, const fs::path& cache) {
+MeshAircraft from_hierarchy(const fs::path& file, const std::string& setting, const fs::path& cache,
+    std::shared_ptr<meshfile::TextureStore> textures) {
     const Stopwatch watch;
     MeshAircraft aircraft;
-    RefineMesh input = hierarchy_in(file, cache, aircraft);
+    RefineMesh input = hierarchy_in(file, cache, std::move(textures), aircraft);
     const AircraftAxes axes = aircraft_axes(setting, file, finest_mesh(*input.mesh));
     aircraft.notes = std::move(input.notes);
     note_axes(axes, file, aircraft.notes);
-    aircraft.hierarchy = turned(*input.mesh, axes.axes);
+    aircraft.hierarchy = turned(*input.mesh, axes.axes); // its nodes keep their numbers
+    aircraft.textures = std::move(input.textures);
     const models::TriangleMesh far = far_mesh(aircraft.hierarchy);
     aircraft.polygons_error_m = max_distance_m(finest_mesh(*aircraft.hierarchy), far);
     aircraft.polygons = models::polygons::polygons_from_mesh(far);
@@ -240,13 +244,32 @@ MeshAircraft from_hierarchy(const fs::path& file, const std::string& setting, co
     return aircraft;
 }
 
+/// Decodes the pictures that a chain holds.
+void take_textures(meshfile::LevelChain& chain, meshfile::TextureStore& textures, std::vector<std::string>& notes) {
+    for (meshfile::ChainLevel& level : chain.levels) {
+        for (models::Material& material : level.mesh.materials) {
+            if (!material.picture_bytes) { continue; }
+            try {
+                material.texture.picture = textures.picture_of(material.picture, *material.picture_bytes);
+                material.texture.alpha =
+                    material.texture.picture->is_opaque ? models::TextureAlpha::Opaque : models::TextureAlpha::Mask;
+            } catch (const Error& fault) {
+                const std::string note = fmt::format("{}; its surfaces have their material's colour", fault.what());
+                if (std::ranges::find(notes, note) == notes.end()) { notes.push_back(note); }
+            }
+        }
+    }
+}
+
 /// Levels with an error above that of the polygons are left out.
-MeshAircraft from_chain(const fs::path& file, const std::string& setting) {
+MeshAircraft from_chain(
+    const fs::path& file, const std::string& setting, const std::shared_ptr<meshfile::TextureStore>& textures) {
     meshfile::LevelChain chain = meshfile::read_chain(file);
     const AircraftAxes found = aircraft_axes(setting, file, chain.levels.front().mesh);
     const models::polygons::FileAxes& axes = found.axes;
     MeshAircraft aircraft;
     note_axes(found, file, aircraft.notes);
+    if (textures) { take_textures(chain, *textures, aircraft.notes); }
     aircraft.polygons =
         chain.polygons ? std::move(*chain.polygons) : models::polygons::polygons_from_mesh(chain.levels.back().mesh);
     aircraft.polygons_error_m = chain.polygons ? chain.polygons_error_m : chain.levels.back().error_m;
@@ -266,13 +289,15 @@ MeshAircraft from_chain(const fs::path& file, const std::string& setting) {
 
 } // namespace
 
-MeshAircraft read_mesh_aircraft(const fs::path& file, const std::string& axes, const fs::path& cache) {
-    return meshfile::is_chain_file(file) ? from_chain(file, axes) : from_hierarchy(file, axes, cache);
+MeshAircraft read_mesh_aircraft(const fs::path& file, const std::string& axes, const fs::path& cache,
+    std::shared_ptr<meshfile::TextureStore> textures) {
+    return meshfile::is_chain_file(file) ? from_chain(file, axes, textures)
+                                         : from_hierarchy(file, axes, cache, std::move(textures));
 }
 
 void add_meshes(planning::AircraftModel& model, const MeshAircraft& aircraft) {
     if (aircraft.hierarchy) {
-        planning::add_progressive(model, aircraft.hierarchy, aircraft.polygons_error_m);
+        planning::add_progressive(model, aircraft.hierarchy, aircraft.polygons_error_m, aircraft.textures);
         std::vector<planning::TurningPartMesh> parts;
         for (const RotatingPart& part : aircraft.turning) {
             parts.push_back({&part.mesh, static_cast<std::uint32_t>(parts.size())});
