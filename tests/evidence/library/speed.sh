@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# Speed of liboctant (../library.md): speed.sh BUILD [BULLET3]. BUILD: a release build; BULLET3: an unpacked source tree of bullet3
+# Speed of liboctant (../library.md): speed.sh BUILD [BULLET3]. BUILD: a release build with octant; BULLET3: an unpacked source tree of bullet3
 # (examples/TinyRenderer, examples/OpenGLWindow/ShapeData.h, examples/CommonInterfaces, examples/Utils, src/LinearMath, src/Bullet3Common).
+# PICTURES: how many are drawn in a row for the memory (100,000).
 set -euo pipefail
 build=$(realpath "$1") bullet=${2:+$(realpath "$2")}
 root=$(realpath "$(dirname "$0")/../../..")
@@ -21,7 +22,7 @@ if [[ -n $bullet ]]; then
 fi
 g++ "${flags[@]}" "$(dirname "$0")/speed.cpp" "$root/tests/ui/library/rays/ray_scene.cpp" "${objects[@]}" -o "$out/speed" \
   -L "$build" -loctant -lembree3 -Wl,-rpath,"$build"
-for what in compare scale memory; do "$out/speed" $what; done
+for what in compare scale "memory ${PICTURES:-100000}"; do "$out/speed" $what; done
 for _ in 1 2 3 4 5; do "$out/speed" first; done
 # The program's two renderers, one flight: CPU time a frame from the difference of a long and a short run.
 for renderer in raster "gl --context osmesa --samples 1"; do
