@@ -319,7 +319,7 @@ struct LogName {
     std::optional<double> factor;
 };
 
-LogName name_of(std::string_view text) {
+LogName log_name(std::string_view text) {
     std::string small = in_small_letters(text);
     LogName name;
     if (const std::size_t bracket = small.find_first_of("(["); bracket != std::string::npos) {
@@ -352,7 +352,7 @@ HeightKind kind_of(const std::string& name) {
 std::optional<LogColumns> log_columns(
     const std::vector<std::string_view>& names, const std::vector<std::string_view>& units) {
     std::vector<LogName> plain;
-    std::ranges::transform(names, std::back_inserter(plain), name_of);
+    std::ranges::transform(names, std::back_inserter(plain), log_name);
     LogColumns columns;
     for (const KnownLog& known : known_names) {
         auto& column = columns.of[static_cast<std::size_t>(known.what)];

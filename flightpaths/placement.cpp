@@ -1,5 +1,6 @@
 #include "flightpaths/placement.h"
 
+#include "flightpaths/height_envelope.h"
 #include "sim/base/axes.h"
 #include "sim/base/error.h"
 #include "sim/base/units.h"
@@ -11,7 +12,6 @@
 #include <array>
 #include <cassert>
 #include <cmath>
-#include <deque>
 #include <fmt/format.h>
 #include <limits>
 #include <optional>
@@ -37,51 +37,6 @@ struct Lift {
     std::vector<double> rate_mps;
     std::vector<double> acceleration_mps2;
 };
-
-/// Largest value within `half` places to either side; the ends are repeated.
-std::vector<double> running_max(const std::vector<double>& values, std::size_t half) {
-    std::vector<double> maxima(values.size());
-    std::deque<std::size_t> falling;
-    std::size_t next = 0;
-    for (std::size_t i = 0; i < values.size(); ++i) {
-        for (; next < std::min(values.size(), i + half + 1); ++next) {
-            while (!falling.empty() && values[falling.back()] <= values[next]) { falling.pop_back(); }
-            falling.push_back(next);
-        }
-        while (falling.front() + half < i) { falling.pop_front(); }
-        maxima[i] = values[falling.front()];
-    }
-    return maxima;
-}
-
-std::vector<double> running_min(std::vector<double> values, std::size_t half) {
-    for (double& value : values) { value = -value; }
-    values = running_max(values, half);
-    for (double& value : values) { value = -value; }
-    return values;
-}
-
-/// Means over `half` places to either side, for the places that have them: 2 * half fewer values.
-std::vector<double> running_mean(const std::vector<double>& values, std::size_t half) {
-    const std::size_t width = 2 * half + 1;
-    std::vector<double> means;
-    means.reserve(values.size() - 2 * half);
-    // Sums of differences to the first value keep a level profile exactly level.
-    double sum = 0.0;
-    for (std::size_t i = 0; i < values.size(); ++i) {
-        sum += values[i] - values.front();
-        if (i >= width) { sum -= values[i - width] - values.front(); }
-        if (i + 1 >= width) { means.push_back(values.front() + sum / static_cast<double>(width)); }
-    }
-    return means;
-}
-
-std::vector<double> padded(const std::vector<double>& values, std::size_t by) {
-    std::vector<double> out(by, values.front());
-    out.insert(out.end(), values.begin(), values.end());
-    out.insert(out.end(), by, values.back());
-    return out;
-}
 
 /// Most that the lift may rise and fall in each step, m.
 struct Slopes {
@@ -236,12 +191,15 @@ constexpr double same_relief_m = 1e-6;
 /// A clearance of no more than this is contact, for the same reason.
 constexpr double contact_m = 1e-6;
 
-/// The times of all steps from the start of a path on, and of its end.
-std::vector<double> step_times(const sim::Trajectory& path) {
-    const double duration_s = path.end_s() - path.start_s();
+/// The times of all steps of a path between two times, and of the last one of these.
+std::vector<double> step_times(const sim::Trajectory& path, double from_s = -std::numeric_limits<double>::infinity(),
+    double to_s = std::numeric_limits<double>::infinity()) {
+    const double skipped_s = std::clamp(from_s - path.start_s(), 0.0, path.end_s() - path.start_s());
+    const double duration_s = std::clamp(to_s - path.start_s(), skipped_s, path.end_s() - path.start_s());
+    const long first = static_cast<long>(std::floor(skipped_s * sim::steps_per_second + 1e-6));
     const long steps = static_cast<long>(std::ceil(duration_s * sim::steps_per_second - 1e-6));
     std::vector<double> times_s;
-    for (long step = 0; step <= steps; ++step) {
+    for (long step = first; step <= steps; ++step) {
         times_s.push_back(path.start_s() + std::min(duration_s, sim::time_of_step(step)));
     }
     return times_s;
@@ -289,6 +247,23 @@ std::vector<double> heights_on_map(
         throw OutsideMapError("path leaves the map at " + where(times_s[*track.leaves_at], places_m[*track.leaves_at]));
     }
     return std::move(track.heights_m);
+}
+
+/// Far below everything.
+constexpr double no_ground_m = -1e9;
+
+/// Heights of the ground along a path, no_ground_m beside the map; throws where all of it is beside the map.
+std::vector<double> heights_where_known(
+    const std::vector<double>& times_s, const std::vector<glm::dvec3>& places_m, const GroundHeight& ground) {
+    std::vector<double> heights_m;
+    for (const glm::dvec3& place_m : places_m) {
+        const auto height_m = ground(place_m.x, place_m.y);
+        heights_m.push_back(height_m && std::isfinite(*height_m) ? *height_m : no_ground_m);
+    }
+    if (std::ranges::all_of(heights_m, [](double height_m) { return height_m == no_ground_m; })) {
+        throw OutsideMapError("path is beside the map from " + where(times_s.front(), places_m.front()) + " on");
+    }
+    return heights_m;
 }
 
 std::vector<glm::dvec3> turned(
@@ -420,14 +395,15 @@ void check_over_ground(const sim::Trajectory& in_world, const GroundHeight& grou
 
 PlacedPath place_over_ground(const sim::Trajectory& path, const PlacementOptions& placement, const GroundHeight& ground,
     double min_clearance_m, const std::optional<sim::AircraftLimits>& limits) {
-    const std::vector<double> times_s = step_times(path);
+    const std::vector<double> times_s = step_times(path, placement.from_s, placement.to_s);
     const Choice choice = chosen(places_along(path, times_s), times_s, placement, ground);
     // A turn by 0 rounds attitudes once more and drops the signs of zeros.
     const bool as_it_was =
         placement.mode == sim::HeightMode::Datum && choice.heading_rad == 0.0 && choice.origin_m == glm::dvec2(0.0);
     const sim::Trajectory over = as_it_was ? path : moved(path, choice);
     std::vector<glm::dvec3> places_m = places_along(over, times_s);
-    const std::vector<double> ground_m = heights_on_map(times_s, places_m, ground);
+    const std::vector<double> ground_m = placement.may_leave_map ? heights_where_known(times_s, places_m, ground)
+                                                                 : heights_on_map(times_s, places_m, ground);
     sim::Trajectory placed = over;
     bool follows = true;
     if (placement.mode == sim::HeightMode::Follow) {
@@ -451,6 +427,11 @@ PlacedPath place_over_ground(const sim::Trajectory& path, const PlacementOptions
         notes.push_back(fmt::format("the ground is too steep to follow within the aircraft's limits: the whole path is "
                                     "lifted by {:.1f} m",
             offset_m));
+    }
+    const auto beside = std::ranges::count(ground_m, no_ground_m);
+    if (beside > 0) {
+        notes.push_back(fmt::format("for {:.1f} s of the flight no ground is known below: it is beside the map",
+            static_cast<double>(beside) * sim::step_s));
     }
     return {std::move(placed), offset_m, choice.heading_rad, choice.origin_m, lowest.clearance_m, times_s[lowest.step],
         std::move(notes)};

@@ -8,6 +8,7 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -28,6 +29,11 @@ struct PlacementOptions {
     /// position.
     std::optional<double> heading_rad;
     sim::HeightMode mode = sim::HeightMode::Clear;
+    /// Only what is flown from here to there is looked at: the rest may leave the map or meet the ground.
+    double from_s = -std::numeric_limits<double>::infinity();
+    double to_s = std::numeric_limits<double>::infinity();
+    /// Whether it is enough that some of it lies over the map; a note then says how long it is beside it.
+    bool may_leave_map = false;
 };
 
 struct PlacedPath {

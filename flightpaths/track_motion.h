@@ -1,61 +1,13 @@
 #pragma once
 
+#include "flightpaths/track_inference.h"
 #include "flightpaths/track_recording.h"
 #include "sim/trajectory.h"
 
-#include <glm/vec2.hpp>
-
-#include <cstdint>
 #include <string>
 #include <vector>
 
 namespace octant::flightpaths {
-
-enum class TrackPhase : std::uint8_t { Parked, Taxi, TakeOffRun, Flight, Hover, LandingRun };
-
-/// "parked", "taxi", "take-off run", ...
-const char* name_of(TrackPhase phase);
-
-struct PhaseSpan {
-    double from_s = 0.0;
-    double to_s = 0.0;
-    TrackPhase phase = TrackPhase::Flight;
-};
-
-/// Where a quantity of a motion comes from. Measured: every sample has it, and it is flown to the last bit.
-enum class Origin : std::uint8_t { Measured, Partly, Inferred };
-
-/// Figures about a motion that was made from a recorded aircraft.
-struct TrackInference {
-    Origin velocity = Origin::Inferred;
-    Origin heading = Origin::Inferred;
-    Origin pitch_roll = Origin::Inferred;
-    /// One standard deviation that was found in the recorded places; 0: they are flown as recorded.
-    double horizontal_error_m = 0.0;
-    double vertical_error_m = 0.0;
-    /// Heights come in steps of this; 0: no steps were found.
-    double height_step_m = 0.0;
-    /// Samples whose place or height contradicts their neighbours: the path does not go there.
-    long rejected = 0;
-    /// Samples that repeat the last place while the aircraft moves.
-    long repeated = 0;
-    long gaps = 0;
-    double longest_gap_s = 0.0;
-    /// In order; they cover the motion. Empty where none were sought.
-    std::vector<PhaseSpan> phases;
-
-    struct Wind {
-        double from_s = 0.0;
-        double to_s = 0.0;
-        /// Where the air moves to: x east, y north.
-        glm::dvec2 wind_mps{0.0};
-        bool from_circling = false;
-    };
-
-    std::vector<Wind> winds;
-    /// Flown as a rotorcraft or a drone.
-    bool hovers = false;
-};
 
 struct TrackMotion {
     sim::Trajectory trajectory;
@@ -63,9 +15,12 @@ struct TrackMotion {
     std::vector<std::string> notes;
 };
 
-/// The motion of a recorded aircraft: what its samples measure, and what they do not measure derived from it
-/// (derived_motion.h). A quaternion is kept to the last bit. The motion may have more samples than the recording or
-/// fewer.
+/// The motion of an aircraft by its recorded samples (at least two). A recording with all attitudes is flown through
+/// its places as they are. In any other, places are smoothed within the errors that they show, and what is missing is
+/// inferred: on the ground and below walking pace heading is held and the aircraft is level; in flight it banks as
+/// coordinated turns need, and its nose points where its motion through the air and its lift ask for; wind is that of
+/// circles flown and of measured airspeeds and headings. The trajectory may have more samples than the recording (in
+/// gaps) and fewer (contradictions).
 TrackMotion motion_of(const TrackedAircraft& aircraft);
 
 } // namespace octant::flightpaths

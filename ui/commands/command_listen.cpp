@@ -50,8 +50,8 @@ struct ListenOptions : base::OutputOptions {
 };
 
 /// Settings of a path that the program flies itself.
-constexpr std::array<std::string_view, 9> path_only_settings{
-    "path", "heading", "height-mode", "lenient", "start", "frame-per-sample", "realtime", "mesh-ahead", "path-ribbon"};
+constexpr std::array<std::string_view, 10> path_only_settings{"path", "heading", "height-mode", "over-map", "lenient",
+    "start", "frame-per-sample", "realtime", "mesh-ahead", "path-ribbon"};
 
 /// Options that only --help-all shows.
 constexpr std::array<std::string_view, 12> rarely_used{"--xplane", "--step", "--vehicles", "--channel", "--frames",

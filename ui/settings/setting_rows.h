@@ -161,6 +161,9 @@ inline constexpr std::tuple path{
             "clear: raise the path to its clearance above the ground; follow: follow the ground; datum: use the "
             "heights as they are [clear; datum for a georeferenced track]"},
         {.group = Path, .change = Flight}),
+    setting<&RunSettings::path, &PathSettings::over_map>(
+        {"over-map", "", "fly the longest part of a recorded track that lies over the map"},
+        {.group = Path, .change = Flight}),
     setting<&RunSettings::path, &PathSettings::lenient>(
         {"lenient", "", "limit legs to the aircraft's abilities, with a note, instead of refusing them"},
         {.group = Path, .change = Flight})};

@@ -68,6 +68,8 @@ struct PathSettings {
     /// Without it, paths are lifted clear of the ground, and tracks that know their place fly at the heights that they
     /// give.
     std::optional<sim::HeightMode> height_mode;
+    /// Whether only the part of a track that lies over the map is flown.
+    bool over_map = false;
     /// Whether legs are limited to the aircraft's abilities, with a note, instead of being refused.
     bool lenient = false;
 

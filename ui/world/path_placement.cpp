@@ -172,6 +172,101 @@ void add(std::vector<std::string>& notes, const std::vector<std::string>& more) 
     notes.insert(notes.end(), more.begin(), more.end());
 }
 
+/// The times between which a run flies this path.
+struct FlownPart {
+    double from_s = 0.0;
+    double to_s = 0.0;
+};
+
+FlownPart flown_part(const settings::TimeSettings& time, const sim::Trajectory& path) {
+    FlownPart part{path.start_s() + time.start_s, path.end_s()};
+    if (time.seconds) { part.to_s = std::min(part.to_s, part.from_s + *time.seconds); }
+    if (time.frames && !time.frame_per_sample) {
+        part.to_s = std::min(part.to_s, part.from_s + static_cast<double>(*time.frames) / time.rate_hz);
+    }
+    return part;
+}
+
+/// The ground below a track whose origin lies at `place_m`, in the track's axes.
+GroundHeight ground_below(const PlacementGround& ground, const glm::dvec2& place_m) {
+    return [&ground, place_m](double x_m, double y_m) { return ground.height_at(x_m + place_m.x, y_m + place_m.y); };
+}
+
+/// The track between two times of it.
+sim::Trajectory cut_to(const FlownPart& part, const sim::Trajectory& track) {
+    std::vector<sim::AircraftState> states{track.state_at(part.from_s)};
+    for (const sim::AircraftState& state : track.samples()) {
+        if (state.time_s > part.from_s && state.time_s < part.to_s) { states.push_back(state); }
+    }
+    if (part.to_s > part.from_s) { states.push_back(track.state_at(part.to_s)); }
+    return sim::Trajectory(std::move(states));
+}
+
+/// The longest part of a track below which there is ground at every second; nothing where there is none.
+std::optional<FlownPart> longest_part_over(const GroundHeight& ground, const sim::Trajectory& track) {
+    constexpr double step_s = 1.0;
+    std::optional<FlownPart> best;
+    std::optional<FlownPart> now;
+    for (double time_s = track.start_s(); time_s <= track.end_s(); time_s += step_s) {
+        const glm::dvec3 place_m = track.state_at(time_s).position_m;
+        const auto height_m = ground(place_m.x, place_m.y);
+        if (!height_m || !std::isfinite(*height_m)) {
+            now.reset();
+            continue;
+        }
+        if (!now) { now = FlownPart{time_s, time_s}; }
+        now->to_s = time_s;
+        if (!best || now->to_s - now->from_s > best->to_s - best->from_s) { best = now; }
+    }
+    return best && best->to_s > best->from_s ? best : std::nullopt;
+}
+
+/// --over-map: keeps the longest part of the first aircraft's track that lies over the map. Throws Error where there is
+/// none, and for paths that lie nowhere.
+void keep_part_over_map(const settings::RunSettings& settings, const PlacementGround& ground, const glm::dvec2& place_m,
+    LoadedPath& loaded, std::vector<std::string>& notes) {
+    if (!settings.path.over_map) { return; }
+    if (!has_own_origin(settings, loaded, ground)) {
+        throw Error("--over-map: expected a track with latitudes and longitudes over a map with a place on the earth, "
+                    "and no --place");
+    }
+    const auto part = longest_part_over(ground_below(ground, place_m), loaded.trajectory);
+    if (!part) { throw Error("--over-map: expected a track that crosses the map, got one beside it"); }
+    if (part->from_s <= loaded.trajectory.start_s() && part->to_s + 1.0 > loaded.trajectory.end_s()) { return; }
+    notes.push_back(fmt::format("of the track the part over the map is flown, from {:.0f} s to {:.0f} s of it",
+        part->from_s - loaded.trajectory.start_s(), part->to_s - loaded.trajectory.start_s()));
+    loaded.trajectory = cut_to(*part, loaded.trajectory);
+}
+
+/// Lays the aircraft of a recording onto the ground over which they were flown, unless the settings say how heights are
+/// meant. Returns what was done to the first one.
+flightpaths::GroundContactReport lay_on_ground(const settings::RunSettings& settings, const PlacementGround& ground,
+    const flightpaths::PlacementOptions& placement, LoadedPath& loaded, std::vector<std::string>& notes) {
+    if (!has_own_origin(settings, loaded, ground) || placement.mode != sim::HeightMode::Datum ||
+        settings.path.height_mode || placement.heading_rad != 0.0) {
+        return {};
+    }
+    const GroundHeight below = ground_below(ground, placement.place_m);
+    flightpaths::GroundContactReport first;
+    for (std::size_t i = 0; i < loaded.inferences.size() && i <= loaded.others.size(); ++i) {
+        sim::Trajectory& track = i == 0 ? loaded.trajectory : loaded.others[i - 1].trajectory;
+        const auto heights = loaded.recording->aircraft[i].heights;
+        constexpr double usual_reach_m = 1.0;
+        const double reach_m = i < ground.reach_below_m.size() ? ground.reach_below_m[i] : usual_reach_m;
+        const flightpaths::GroundContactOptions options{.reach_below_m = std::max(0.05, reach_m),
+            .by_pressure = heights == flightpaths::HeightKind::Pressure || heights == flightpaths::HeightKind::Unknown,
+            .from_s = i == 0 ? placement.from_s : track.start_s(),
+            .to_s = i == 0 ? placement.to_s : track.end_s()};
+        flightpaths::LaidTrack laid = flightpaths::laid_on_ground(track, loaded.inferences[i], below, options);
+        track = std::move(laid.trajectory);
+        if (i == 0) {
+            first = std::move(laid.report);
+            add(notes, laid.notes);
+        }
+    }
+    return first;
+}
+
 /// Aircraft of an ACMI recording may stand on a ground that lies a little lower than ours: where the path meets our
 /// ground, the whole recording is lifted clear, and a note says so.
 flightpaths::PlacedPath placed_path(
@@ -181,18 +276,18 @@ flightpaths::PlacedPath placed_path(
         return flightpaths::place_over_ground(
             loaded.trajectory, placement, ground.height_at, loaded.min_clearance_m, loaded.limits);
     }
+    try {
+        return flightpaths::place_over_ground(
+            loaded.trajectory, placement, ground.height_at, loaded.min_clearance_m, loaded.limits);
+    } catch (const flightpaths::OutsideMapError&) { throw; } catch (const Error&) {
+    }
     constexpr double min_m = 2.0;
     placement.mode = sim::HeightMode::Clear;
     flightpaths::PlacedPath lifted =
         flightpaths::place_over_ground(loaded.trajectory, placement, ground.height_at, min_m, loaded.limits);
-    if (lifted.offset_m > 0.0) {
-        lifted.notes.push_back(fmt::format(
-            "the recording's first aircraft meets this ground: all are lifted by {:.1f} m", lifted.offset_m));
-        return lifted;
-    }
-    placement.mode = sim::HeightMode::Datum;
-    return flightpaths::place_over_ground(
-        loaded.trajectory, placement, ground.height_at, loaded.min_clearance_m, loaded.limits);
+    lifted.notes.push_back(
+        fmt::format("the recording's first aircraft meets this ground: all are lifted by {:.1f} m", lifted.offset_m));
+    return lifted;
 }
 
 /// Places a path over the ground. Errors begin with the name of the path.
@@ -201,9 +296,11 @@ flightpaths::PlacedPath placed_by_name(const std::string& name, const LoadedPath
     try {
         return placed_path(loaded, placement, ground);
     } catch (const flightpaths::OutsideMapError& fault) {
-        throw Error(fmt::format("{}: {}; the map reaches {:.1f} km east and {:.1f} km north of its middle, and "
+        const bool knows_its_place = loaded.origin && ground.frame;
+        throw Error(fmt::format("{}: {}; the map reaches {:.1f} km east and {:.1f} km north of its middle, {}and "
                                 "--terrain none has no end",
-            printable(name), fault.what(), ground.half_extent_m.x / 1000.0, ground.half_extent_m.y / 1000.0));
+            printable(name), fault.what(), ground.half_extent_m.x / 1000.0, ground.half_extent_m.y / 1000.0,
+            knows_its_place ? "--over-map flies the part over it, " : ""));
     } catch (const Error& fault) { throw Error(fmt::format("{}: {}", printable(name), fault.what())); }
 }
 
@@ -237,6 +334,7 @@ PlacedFlight live_flight(const settings::RunSettings& settings, const PlacementG
         .rate_hz = usual_rate_hz,
         .place_m = place_m,
         .lowest_clearance_m = above_ground_m,
+        .ground_contact = {},
         .legs = {},
         .name = {},
         .other_trajectories = {},
@@ -253,7 +351,18 @@ PlacedFlight place_flight(const settings::RunSettings& settings, LoadedPath load
         placement.place_m = given_placement->place_m;
         placement.heading_rad = given_placement->heading_rad;
     }
+    if (has_own_origin(settings, loaded, ground) && placement.mode == sim::HeightMode::Datum) {
+        keep_part_over_map(settings, ground, placement.place_m, loaded, notes);
+        const FlownPart part = flown_part(settings.time, loaded.trajectory);
+        placement.from_s = part.from_s;
+        placement.to_s = part.to_s;
+        placement.may_leave_map = settings.time.start_s > 0.0 || settings.time.seconds || settings.time.frames;
+    } else if (settings.path.over_map) {
+        keep_part_over_map(settings, ground, placement.place_m, loaded, notes);
+    }
+    flightpaths::GroundContactReport contact = lay_on_ground(settings, ground, placement, loaded, notes);
     flightpaths::PlacedPath path = placed_by_name(path_of(settings), loaded, placement, ground);
+    const FlownPart flown = flown_part(settings.time, path.trajectory);
     add(notes, path.notes);
     std::map<std::size_t, sim::Trajectory> other_trajectories;
     std::map<std::size_t, std::string> other_names;
@@ -271,6 +380,9 @@ PlacedFlight place_flight(const settings::RunSettings& settings, LoadedPath load
         .offset_m = path.offset_m,
         .lowest_clearance_m = path.lowest_clearance_m,
         .lowest_clearance_s = path.lowest_clearance_at_s,
+        .flown_from_s = flown.from_s,
+        .flown_to_s = flown.to_s,
+        .ground_contact = std::move(contact),
         .legs = std::move(loaded.legs),
         .name = std::move(loaded.name),
         .other_trajectories = std::move(other_trajectories),
@@ -282,8 +394,7 @@ PlacedFlight place_flight(const settings::RunSettings& settings, LoadedPath load
 sim::Trajectory own_path(const settings::RunSettings& settings, const settings::AircraftEntry& flown,
     const glm::dvec2& begin_m, const PlacementGround& ground, const PlacedFlight& first,
     std::vector<std::string>& notes) {
-    const LoadedPath loaded =
-        in_axes_of(ground, settings, load_path(*flown.path, flown.shape, settings.path.lenient), notes);
+    LoadedPath loaded = in_axes_of(ground, settings, load_path(*flown.path, flown.shape, settings.path.lenient), notes);
     add(notes, loaded.notes);
     flightpaths::PlacementOptions placement = placement_of(settings, loaded, ground);
     if (!has_own_origin(settings, loaded, ground)) {
@@ -292,6 +403,7 @@ sim::Trajectory own_path(const settings::RunSettings& settings, const settings::
         const glm::dquat turn = glm::angleAxis(-first.heading_rad, glm::dvec3(0.0, 0.0, 1.0));
         placement.place_m = begin_m - glm::dvec2(turn * start_m);
     }
+    lay_on_ground(settings, ground, placement, loaded, notes);
     flightpaths::PlacedPath path = placed_by_name(*flown.path, loaded, placement, ground);
     add(notes, path.notes);
     return starting_at_time(path.trajectory, first.trajectory.start_s() + flown.from_s);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "flightpaths/fly_script.h"
+#include "flightpaths/ground_contact.h"
 #include "models/heights/runway_strip.h"
 #include "sim/aircraft_state.h"
 #include "sim/base/axes.h"
@@ -38,6 +39,11 @@ struct PlacedFlight {
     /// The least height above the ground, and its time.
     double lowest_clearance_m = 0.0;
     double lowest_clearance_s = 0.0;
+    /// What is flown of it; the rest may leave the map.
+    double flown_from_s = 0.0;
+    double flown_to_s = 0.0;
+    /// What laying the track onto the ground did to its heights.
+    flightpaths::GroundContactReport ground_contact{};
     std::vector<flightpaths::LegStart> legs;
     /// The first aircraft's name in its recording; empty where there is none.
     std::string name;
@@ -73,6 +79,9 @@ struct PlacementGround {
     glm::dvec2 half_extent_m{0.0};
     /// Its axes on the earth; null for generated ground.
     std::shared_ptr<const EarthFrame> frame;
+    /// How far each aircraft of the run reaches below its reference point, by aircraft number; a metre where none is
+    /// known.
+    std::vector<double> reach_below_m{};
 };
 
 /// The result must not outlive `ground`.

@@ -12,6 +12,7 @@
 #include "ui/world/aircraft_loader.h"
 #include "ui/world/path_placement.h"
 #include "ui/world/scene_ground.h"
+#include "visuals/planning/aircraft_model.h"
 
 #include <glm/common.hpp>
 
@@ -149,6 +150,15 @@ void add_notes(std::vector<std::string>& notes, const std::vector<std::string>& 
     notes.insert(notes.end(), more.begin(), more.end());
 }
 
+/// The ground for placing the paths of the aircraft of a scene.
+PlacementGround placement_ground(const SceneGround& ground, const planning::Scene& scene) {
+    PlacementGround below = placement_ground(ground);
+    for (std::size_t i = 0; i < scene.aircraft.size(); ++i) {
+        below.reach_below_m.push_back(planning::reach_below_m(scene.model_of(i)));
+    }
+    return below;
+}
+
 void add_own_paths(const settings::RunSettings& settings, const SceneGround& ground, World& world) {
     const sim::AircraftState start = world.flight.trajectory.samples().front();
     const std::vector<std::string>& aircraft = settings.path.aircraft;
@@ -173,8 +183,14 @@ void check_wingmen(const World& world) {
         ++number;
         std::vector<sim::AircraftState> states;
         for (const sim::AircraftState& leader : world.flight.trajectory.samples()) {
-            states.push_back(formation.wingman_state(leader, number));
+            const bool is_flown =
+                leader.time_s >= world.flight.flown_from_s && leader.time_s <= world.flight.flown_to_s;
+            // The rest of a recorded track may leave the map.
+            if (is_flown || world.flight.recording == nullptr) {
+                states.push_back(formation.wingman_state(leader, number));
+            }
         }
+        if (states.empty()) { continue; }
         try {
             flightpaths::check_over_ground(sim::Trajectory(std::move(states)),
                 [&](double x_m, double y_m) { return world.scene.ground->height_at(x_m, y_m); });
@@ -252,8 +268,11 @@ std::shared_ptr<const planning::DrawnPath> drawn_path(const PlacedFlight& flight
 scene::TowerRequest tower_request(const World& world, std::vector<sim::AircraftState>& states) {
     constexpr int looks = 160;
     const sim::Trajectory& path = world.flight.trajectory;
+    const bool is_recorded = world.flight.recording != nullptr; // what is not flown may leave the map
+    const double from_s = is_recorded ? world.flight.flown_from_s : path.start_s();
+    const double to_s = is_recorded ? world.flight.flown_to_s : path.end_s();
     for (int i = 0; i <= looks; ++i) {
-        states.push_back(path.state_at(glm::mix(path.start_s(), path.end_s(), static_cast<double>(i) / looks)));
+        states.push_back(path.state_at(glm::mix(from_s, to_s, static_cast<double>(i) / looks)));
     }
     const double radius_m = world.scene.model_of(0).subject.radius_m;
     return {states, formation_of(world.scene, world.flight).framed_radius_m(radius_m), world.scene.ground->spacing_m(),
@@ -362,9 +381,9 @@ World load_world(const settings::RunSettings& settings, RenderDevice device, con
     world.notes = world.aircraft.notes;
     if (path) { add_notes(world.notes, path->notes); }
     add_notes(world.notes, ground.notes);
-    world.flight =
-        path ? place_flight(settings, std::move(*path), placement_ground(ground), world.notes, loaded.placement)
-             : live_flight(settings, placement_ground(ground));
+    world.flight = path ? place_flight(settings, std::move(*path), placement_ground(ground, world.scene), world.notes,
+                              loaded.placement)
+                        : live_flight(settings, placement_ground(ground));
     if (!is_live) {
         world.scene.path = drawn_path(world.flight);
         add_own_paths(settings, ground, world);
