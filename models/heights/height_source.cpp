@@ -543,6 +543,14 @@ std::vector<MapNote> HeightSource::notes() const {
     }
     content_->add_spikes(notes);
     content_->add_seams(notes);
+    const auto names_width = [](const MapNote& note) {
+        return note.text.find("--terrain-spacing") != std::string::npos;
+    };
+    if (!content_->has_map() && spacing_m() == ImportOptions().spacing_m && std::ranges::none_of(notes, names_width)) {
+        notes.push_back({fmt::format("{}: the file does not say how wide its cells are: taken as {:g} m; "
+                                     "--terrain-spacing says another width",
+            name(), spacing_m())});
+    }
     content_->gdal.forget();
     return notes;
 }

@@ -151,6 +151,7 @@ TEST_CASE("the option that a needle's note names takes it away, in any unit and 
     std::ofstream(pgm) << text;
     ImportOptions options;
     options.height_scale = 0.1;
+    options.spacing_m = 29.0; // the default is told
     const HeightField field = read_height_field(pgm, options);
     REQUIRE(field.notes.size() == 1);
     CHECK(has(field.notes.front().text, "one sample is 2500.1 m"));

@@ -605,6 +605,10 @@ TEST_CASE("a picture in colour that is grey everywhere is one of heights") {
     const HeightField field = read_height_field(file);
     CHECK(height_at(field, 7, 5) == 12.0);
     CHECK_THAT(notes_text(field), Contains("red, green and blue are the same everywhere: taken for heights"));
+    const std::string width =
+        "does not say how wide its cells are: taken as 30 m; --terrain-spacing says another width";
+    CHECK_THAT(notes_text(field), Contains(width));
+    CHECK_THAT(notes_text(read_height_field(file, {.spacing_m = 12.0})), !Contains(width));
     picture.values.back() += 1.0;
     write_raster(file, "PNG", picture);
     CHECK_THROWS_WITH(read_height_field(file), Contains("got a colour picture"));
