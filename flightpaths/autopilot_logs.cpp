@@ -15,6 +15,7 @@
 #include <cstdint>
 #include <cstring>
 #include <fmt/format.h>
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>

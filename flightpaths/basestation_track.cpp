@@ -14,6 +14,7 @@
 #include <cmath>
 #include <cstddef>
 #include <fmt/format.h>
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -111,6 +112,11 @@ TrackRecording basestation_recording(const TrackSource& source) {
         fix.contact = contact == "-1" || contact == "1" ? GroundContact::OnGround
                       : contact == "0"                  ? GroundContact::InAir
                                                         : GroundContact::Unknown;
+        // A message that was received wrongly.
+        if (!(std::abs(fix.latitude_deg) <= 90.0 && std::abs(fix.longitude_deg) <= 180.0)) {
+            fixes.skip_row();
+            continue;
+        }
         fixes.add(series, fix);
     }
     return std::move(fixes).recording(source.follow);

@@ -47,7 +47,7 @@ double speed_between_mps(const Fix& a, const Fix& b) { return distance_between_m
 double span_s(const FixSeries& flight) { return flight.fixes.back().time_s - flight.fixes.front().time_s; }
 
 std::vector<std::string> names_of(const FixSeries& flight) {
-    return {flight.call_sign, flight.id, flight.name, flight.pilot};
+    return {flight.call_sign, flight.name, flight.id, flight.pilot};
 }
 
 /// An hour without a fix ends a flight, unless the aircraft flew on: then it went at least half as fast as around it.
@@ -77,31 +77,6 @@ std::size_t default_index(const std::vector<FixSeries>& flights) {
 }
 
 } // namespace
-
-std::string_view text_of(HeightKind kind) {
-    switch (kind) {
-    case HeightKind::Sea:
-        return "above the sea";
-    case HeightKind::Ellipsoid:
-        return "above the ellipsoid of WGS 84";
-    case HeightKind::Pressure:
-        return "pressure heights of the standard atmosphere";
-    case HeightKind::AboveGround:
-        return "above the ground";
-    case HeightKind::Absent:
-        return "none";
-    case HeightKind::Unknown:
-        break;
-    }
-    return "as recorded, above the sea as the file seems to mean";
-}
-
-std::string display_name(const TrackedAircraft& aircraft, std::size_t index) {
-    for (const std::string* name : {&aircraft.call_sign, &aircraft.name, &aircraft.id}) {
-        if (!name->empty()) { return *name; }
-    }
-    return fmt::format("aircraft {}", index + 1);
-}
 
 std::size_t followed_index(const std::vector<std::vector<std::string>>& names, const std::string& follow) {
     const std::string wanted = in_small_letters(follow);
@@ -335,10 +310,12 @@ void FixTable::choose_heights() {
             ++all;
         }
     }
-    if (with_height == 0 && with_pressure == 0) {
-        if (all == 0) { return; }
+    if (2 * std::max(with_height, with_pressure) < all) {
         heights = HeightKind::Absent;
-        notes_.push_back(fmt::format("the file has no heights: flown {:.0f} m above the ground", assumed_height_m));
+        notes_.push_back(fmt::format("{}: flown {:.0f} m above the ground",
+            with_height == 0 ? "the file has no heights"
+                             : fmt::format("only {} of {} places have a height", with_height, all),
+            assumed_height_m));
         return;
     }
     const bool by_pressure = with_pressure > with_height && 2 * with_height < all;

@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-// Readers of the formats of recorded flights, behind parse_track_recording() of track_recording.h. A function is_... is
+// Readers of the formats of recorded flights, behind parse_track_recording() of recorded_track.h. A function is_... is
 // true for the bytes of its format; the others read them and throw Error with file and line.
 
 namespace octant::flightpaths {

@@ -7,7 +7,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <filesystem>
 #include <limits>
 #include <optional>
 #include <string>
@@ -106,23 +105,5 @@ inline constexpr std::size_t max_recorded_aircraft = 256;
 
 /// Height above the ground at which tracks without heights are flown.
 inline constexpr double assumed_height_m = 300.0;
-
-/// Reads a recorded flight from the bytes of a file of any known format, which is recognised by its content:
-///   text tables with a line of column names, separated by commas, tabs or semicolons (with semicolons, numbers may
-///   have decimal commas); names are found in any order and case, other columns are ignored:
-///     Octant: t_s, north_m, east_m, alt_m; optional roll_deg, pitch_deg, yaw_deg, v_north_mps, v_east_mps, v_up_mps
-///             (all three), n_g; q_w, q_x, q_y, q_z (all four or none): the rotation from body to world
-///     JSBSim: Time, Latitude Geodetic (deg) or Latitude (deg), Longitude (deg), Altitude ASL (ft); optional Phi (deg),
-///             Theta (deg), Psi (deg), and V_{North} (ft/s), V_{East} (ft/s), V_{Down} (ft/s)
-///     others: names that log_columns() of log_columns.h knows, such as Timestamp, Latitude, Longitude, Altitude (ft);
-///             rows of several aircraft are told apart by columns such as icao24 or callsign
-///   tables of numbers without names (FlightGear's generic protocol), FlySight 2's tables
-///   Tacview ACMI 2.x, GPX, KML, IGC, X-Plane's FDR and Data.txt, ArduPilot's DataFlash (binary and text), PX4's ULog,
-///   MAVLink telemetry logs, BaseStation messages, traces of readsb
-/// `follow`: the name, call sign, id or pilot of the aircraft that becomes the first; empty: the one that is flown by
-/// the recording's pilot, else the one recorded longest. `file` names the bytes in messages. Throws Error with file and
-/// line for text that is none of these and for values that are none; with the file where fewer than 2 samples are left.
-TrackRecording parse_track_recording(
-    std::string_view bytes, const std::filesystem::path& file, const std::string& follow = {});
 
 } // namespace octant::flightpaths

@@ -142,7 +142,8 @@ private:
         }
     }
 
-    void take_gpx_point(const pugi::xml_node& point, FixSeries& series);
+    static bool has_gpx_times(const std::vector<pugi::xml_node>& points);
+    void take_gpx_point(const pugi::xml_node& point, bool has_times, FixSeries& series);
     bool take_kml_track(const pugi::xml_node& track, FixSeries& series);
     void take_kml_point(const pugi::xml_node& placemark);
     void take_kml_line(const pugi::xml_node& line, FixSeries& series);
@@ -155,8 +156,8 @@ private:
     FixTable fixes_;
 };
 
-void XmlTrackReader::take_gpx_point(const pugi::xml_node& point, FixSeries& series) {
-    const auto when = time(point, child_text(point, "time"));
+void XmlTrackReader::take_gpx_point(const pugi::xml_node& point, bool has_times, FixSeries& series) {
+    const auto when = has_times ? time(point, child_text(point, "time")) : LogTime{};
     const std::string_view latitude = point.attribute("lat").value();
     const std::string_view longitude = point.attribute("lon").value();
     if (!when || latitude.empty() || longitude.empty()) {
@@ -179,27 +180,49 @@ void XmlTrackReader::take_gpx_point(const pugi::xml_node& point, FixSeries& seri
     fixes_.add(series, fix);
 }
 
+/// Whether most points have times, and not all the same one.
+bool XmlTrackReader::has_gpx_times(const std::vector<pugi::xml_node>& points) {
+    std::size_t count = 0;
+    std::string_view first;
+    bool differ = false;
+    for (const pugi::xml_node& point : points) {
+        const std::string_view text = child_text(point, "time");
+        if (text.empty()) { continue; }
+        if (count++ == 0) { first = text; }
+        differ = differ || text != first;
+    }
+    return differ && 2 * count >= points.size();
+}
+
 TrackRecording XmlTrackReader::read_gpx() {
     fixes_.time_scale = TimeScale::Utc;
-    bool has_points = false;
-    std::vector<std::pair<std::string, pugi::xml_node>> tracks;
-    for_each_named("trk", [&](const pugi::xml_node& track) { tracks.emplace_back(child_text(track, "name"), track); });
-    // Tracks of one name are the parts of one flight; of several names, several aircraft.
-    for (const auto& [name, track] : tracks) {
+    std::vector<std::string> names; ///< of the tracks of `points`
+    std::vector<pugi::xml_node> points;
+    for_each_named("trk", [&](const pugi::xml_node& track) {
+        const std::string name(child_text(track, "name"));
         for (const pugi::xml_node& segment : track) {
             for (const pugi::xml_node& point : segment) {
                 if (local_name(point) != "trkpt") { continue; }
-                has_points = true;
-                FixSeries& series = fixes_.series(name);
-                series.call_sign = name;
-                take_gpx_point(point, series);
+                names.push_back(name);
+                points.push_back(point);
             }
         }
-    }
-    if (!has_points) {
+    });
+    if (points.empty()) {
         throw_error_in(source_.file, "expected track points (trkpt), got none: waypoints and routes have no times");
     }
-    fixes_.join_in_sequence();
+    // Tracks of one name are the parts of one flight; of several names, several aircraft.
+    const bool has_times = has_gpx_times(points);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        FixSeries& series = fixes_.series(names[i]);
+        series.call_sign = names[i];
+        take_gpx_point(points[i], has_times, series);
+    }
+    if (has_times) {
+        fixes_.join_in_sequence();
+    } else {
+        fixes_.space_out();
+    }
     return std::move(fixes_).recording(source_.follow);
 }
 

@@ -148,8 +148,8 @@ TEST_CASE("wrong tracks are refused with line and what was expected") {
     CHECK_THROWS_WITH(read_recorded_track("/nowhere/a.csv"), "/nowhere/a.csv: expected a file, found none");
     CHECK(track_fault("") == "1: expected a line of column names, got an empty one");
     CHECK(track_fault("a,b\n1,2\n") ==
-          "1: expected column names with a time, a place and an altitude among them (t_s, north_m, "
-          "east_m, alt_m or Time, Latitude, Longitude, Altitude), got a,b");
+          "1: expected column names with a time and a place among them (t_s, north_m, east_m, alt_m or Time, Latitude, "
+          "Longitude, Altitude), or a file of a known format, got a,b");
     CHECK(track_fault("t_s,north_m,alt_m\n") == "1: expected a column east_m, got 't_s,north_m,alt_m'");
     CHECK(track_fault("Time,Longitude (deg),Altitude ASL (ft)\n") ==
           "1: expected a column Latitude Geodetic (deg), got 'Time,Longitude (deg),Altitude ASL (ft)'");
@@ -177,7 +177,8 @@ TEST_CASE("wrong tracks are refused with line and what was expected") {
           "2: expected a place within 10000 km of the origin, got 100000 km");
     CHECK(track_fault("Time,Latitude (deg),Longitude (deg),Altitude ASL (ft)\n0,95,0,0\n") ==
           "2: expected a latitude within 90 deg and a longitude within 360 deg, got 95 and 0");
-    CHECK(track_fault(std::string("t_s\0", 4)) == " expected text, got binary data");
+    CHECK(track_fault(std::string("t_s\0,", 5)) ==
+          " expected text or a known format of flight recordings, got binary data");
 }
 
 TEST_CASE("every cut of a good track is read or refused, never worse") {

@@ -1,3 +1,4 @@
+#include "flightpaths/recorded_track.h"
 #include "flightpaths/track_motion.h"
 #include "flightpaths/track_recording.h"
 #include "flightpaths/track_writer.h"
@@ -13,6 +14,7 @@
 #include <cstring>
 #include <fmt/format.h>
 #include <string>
+#include <utility>
 
 using namespace octant;
 using namespace octant::flightpaths;
@@ -88,6 +90,17 @@ TEST_CASE("a GPX track over several days is its flights, of which the longest is
     CHECK_THAT(notes_in(days), Contains("stood for more than an hour: 3 flights"));
 }
 
+TEST_CASE("a GPX track without times, or all of one moment, is flown at a stated speed") {
+    for (const std::string time : {"", "<time>2024-05-01T10:00:00Z</time>"}) {
+        std::string points;
+        for (int i = 0; i < 4; ++i) { points += fmt::format("<trkpt lat='47.00{}' lon='8'>{}</trkpt>", i, time); }
+        const TrackRecording line = recorded("<gpx><trk><trkseg>" + points + "</trkseg></trk></gpx>");
+        CHECK(line.aircraft[0].samples.size() == 4);
+        CHECK(line.aircraft[0].samples[3].time_s == Approx(3.0 * 111.2 / 60.0).epsilon(0.01));
+        CHECK_THAT(notes_in(line), Contains("the line has no times: flown at 60 m/s"));
+    }
+}
+
 TEST_CASE("a flight data recorder file of the first versions has DATA rows, its clock and true headings") {
     const TrackRecording fdr = recorded("I\n1\nACFT,Aircraft/Heavy/Boeing 747.acf\nTAIL,N8141Q\nTIME,18:54:32\n"
                                         "DATE,03/05/02\nDATA,0,15,8.0,47.0,1000,0,0,0,0,2.5,-10,90,250,0\n"
@@ -118,9 +131,11 @@ TEST_CASE("messages of a Mode S receiver are the aircraft of their addresses, wi
     };
     const TrackRecording messages = recorded(
         "listening\n" + at("1", "4CA2D6", 1, "RYR1  ,,,,,,,,,,,0") + at("4", "4CA2D6", 2, ",,400,90,,,-600,,,,,0") +
-        at("3", "4CA2D6", 3, ",36000,,,51,7,,,0,,0,0") + at("3", "400F00", 3, ",900,,,51.2,7,,,0,,0,0") +
-        at("3", "4CA2D6", 4, ",36000,,,51,7.003,,,0,,0,0") + at("2", "400F00", 5, ",,12,80,51.2,7.001,,,,,,-1"));
+        at("3", "4CA2D6", 3, ",36000,,,51,7,,,0,,0,0") + at("3", "4CA2D6", 3, ",36000,,,51,-4.8e30,,,0,,0,0") +
+        at("3", "400F00", 3, ",900,,,51.2,7,,,0,,0,0") + at("3", "4CA2D6", 4, ",36000,,,51,7.003,,,0,,0,0") +
+        at("2", "400F00", 5, ",,12,80,51.2,7.001,,,,,,-1"));
     REQUIRE(messages.aircraft.size() == 2);
+    CHECK_THAT(notes_in(messages), Contains("2 without time, place or height"));
     CHECK(messages.aircraft[0].heights == HeightKind::Pressure);
     const TrackedAircraft& first = messages.aircraft[messages.aircraft[0].id == "4CA2D6" ? 0 : 1];
     CHECK(first.call_sign == "RYR1");
@@ -136,9 +151,9 @@ TEST_CASE("ArduPilot's logs are read by the formats that they describe, binary a
         return std::string("\xA3\x95\x80") + kind + static_cast<char>(length) + zero_filled(name, 4) +
                zero_filled(types, 16) + zero_filled(columns, 64);
     };
-    std::string log = format('\x01', 31, "POS", "QLLff", "TimeUS,Lat,Lng,Alt,RelHomeAlt") +
+    std::string log = format('\x01', 27, "POS", "QLLff", "TimeUS,Lat,Lng,Alt,RelHomeAlt") +
                       format('\x02', 17, "ATT", "Qccc", "TimeUS,Roll,Pitch,Yaw") + "junk";
-    std::string text = "FMT, 128, 89, FMT, BBnNZ, Type,Length,Name,Format,Columns\nFMT, 1, 31, POS, QLLff, "
+    std::string text = "FMT, 128, 89, FMT, BBnNZ, Type,Length,Name,Format,Columns\nFMT, 1, 27, POS, QLLff, "
                        "TimeUS,Lat,Lng,Alt,RelHomeAlt\nFMT, 2, 17, ATT, Qccc, TimeUS,Roll,Pitch,Yaw\n";
     for (std::uint64_t i = 0; i < 3; ++i) {
         const std::uint64_t us = 1000000 + 200000 * i;

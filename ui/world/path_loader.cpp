@@ -2,6 +2,7 @@
 
 #include "flightpaths/derived_motion.h"
 #include "flightpaths/path_script.h"
+#include "flightpaths/recorded_track.h"
 #include "sim/aircraft_kind.h"
 #include "sim/base/earth_frame.h"
 #include "sim/base/error.h"

@@ -91,7 +91,7 @@ struct SurfaceSettings {
     /// The largest error of a mesh's level of detail on the screen.
     double aircraft_error_px = 1.0;
     /// Whether the pictures on aircraft are drawn; else they become colours of vertices.
-    bool textures = false;
+    bool textures = true;
 
     bool operator==(const SurfaceSettings&) const = default;
 };

@@ -1,4 +1,5 @@
 // Recorded tracks of the formats that are no tables.
+#include "flightpaths/recorded_track.h"
 #include "flightpaths/track_motion.h"
 #include "flightpaths/track_recording.h"
 #include "sim/base/text_file.h"
@@ -142,9 +143,9 @@ std::string format(
 std::vector<std::string> seeds() {
     std::string log =
         format('\x80', 89, "FMT", "BBnNZ", "Type,Length,Name,Format,Columns") +
-        format('\x01', 31, "POS", "QLLff", "TimeUS,Lat,Lng,Alt,RelHomeAlt") +
+        format('\x01', 27, "POS", "QLLff", "TimeUS,Lat,Lng,Alt,RelHomeAlt") +
         format('\x02', 17, "ATT", "Qccc", "TimeUS,Roll,Pitch,Yaw") + format('\x03', 75, "MSG", "QZ", "TimeUS,Message") +
-        format('\x04', 42, "GPS", "QBIHBcLLefffB", "TimeUS,Status,GMS,GWk,NSats,HDop,Lat,Lng,Alt,Spd,GCrs,VZ,U");
+        format('\x04', 46, "GPS", "QBIHBcLLefffB", "TimeUS,Status,GMS,GWk,NSats,HDop,Lat,Lng,Alt,Spd,GCrs,VZ,U");
     log += message('\x03', bytes_of(std::uint64_t{1000}) + padded("ArduCopter V4.0", 64));
     for (std::uint64_t i = 1; i < 5; ++i) {
         const std::string time = bytes_of(i * 200000);
@@ -157,7 +158,7 @@ std::vector<std::string> seeds() {
                                    bytes_of(10.0F) + bytes_of(20.0F) + bytes_of(-1.0F) + "\x01");
         log += message('\x01', time + place + bytes_of(500.0F) + bytes_of(10.0F));
     }
-    return {log, log + "\x01\x02" + log.substr(log.size() - 31)};
+    return {log, log + "\x01\x02" + log.substr(log.size() - 27)};
 }
 
 const Registered target({.name = "dataflash",
@@ -266,8 +267,11 @@ std::vector<std::string> seeds() {
     namespace links = sim::links;
     std::string log;
     for (int i = 0; i < 6; ++i) {
-        const std::uint64_t us = 1'500'000'000'000'000ULL + static_cast<std::uint64_t>(i) * 250'000ULL;
-        for (int byte = 7; byte >= 0; --byte) { log += static_cast<char>(us >> (8 * byte) & 0xFFU); }
+        const std::uint64_t us =
+            std::uint64_t{1500000000000000} + static_cast<std::uint64_t>(i) * std::uint64_t{250000};
+        for (int byte = 7; byte >= 0; --byte) {
+            log += static_cast<char>(us >> static_cast<unsigned>(8 * byte) & 0xFFU);
+        }
         links::MavLinkFrame frame{
             i % 2 == 0 ? links::MavLinkKind::GlobalPositionInt : links::MavLinkKind::Attitude, 1, {}};
         frame.payload.resize(28, std::byte{0});

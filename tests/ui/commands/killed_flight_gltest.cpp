@@ -1,4 +1,4 @@
-#include "flightpaths/track_recording.h"
+#include "flightpaths/recorded_track.h"
 #include "sim/base/output_file.h"
 #include "sim/base/text_file.h"
 #include "tests/scratch.h"
