@@ -37,10 +37,13 @@ struct PolygonModel {
     std::string name;
     std::vector<glm::dvec3> vertices_m;
     std::vector<std::uint32_t> corner_vertices; ///< indices into vertices_m, polygon after polygon
-    std::vector<Polygon> polygons;              ///< in file order
-    std::vector<Material> materials;            ///< at least one
-    std::vector<std::string> parts;             ///< OBJ groups in file order, at least one
-    std::vector<Pivot> pivots;                  ///< at most one for each part
+    /// One for each of corner_vertices, or none: unit normals that the file gives; zero where it gives none. Pieces
+    /// that painting orders cut have none: they take them from the whole polygons (visuals/shading).
+    std::vector<glm::vec3> corner_normals;
+    std::vector<Polygon> polygons;   ///< in file order
+    std::vector<Material> materials; ///< at least one
+    std::vector<std::string> parts;  ///< OBJ groups in file order, at least one
+    std::vector<Pivot> pivots;       ///< at most one for each part
     /// For each polygon the index of the file's polygon of which it is a piece; empty where none was cut.
     std::vector<std::uint32_t> parents;
     std::vector<std::string> notes; ///< what the reader guessed or left out, each "file:line: ..."

@@ -41,8 +41,10 @@ struct PathSettings {
     std::string name = "straight";
     /// Names or files, at least one where a path is flown. The first aircraft flies the path, the others beside it.
     std::vector<std::string> aircraft = {"f15"};
-    /// Directions of the axes of aircraft files, or "auto": by their formats, else by their shapes.
+    /// Directions of the axes of aircraft files, or "auto": by their formats and shapes.
     std::string axes = "auto";
+    /// Metres a unit of length of aircraft files.
+    double aircraft_scale = 1.0;
     std::string terrain = "hills";
     /// Sample spacing of terrain files that do not give one.
     double terrain_spacing_m = 30.0;

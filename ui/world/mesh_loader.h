@@ -3,6 +3,7 @@
 #include "models/meshfile/mesh_file.h"
 #include "models/meshfile/mesh_join.h"
 #include "models/triangle_mesh.h"
+#include "visuals/refine/mesh_creases.h"
 #include "visuals/refine/progressive_mesh.h"
 
 #include <cstddef>
@@ -47,6 +48,8 @@ struct RefineMeshOptions {
 /// A hierarchy, with notes for the user.
 struct RefineMesh {
     std::shared_ptr<const visuals::refine::ProgressiveMesh> mesh;
+    /// Null where each vertex has one normal, and for a hierarchy from a file.
+    std::shared_ptr<const visuals::refine::MeshCreases> creases;
     std::vector<std::string> notes;
     /// Changes made by repair, a line each; also in the notes, after the name of the file.
     std::vector<std::string> repairs;

@@ -40,8 +40,9 @@ std::uint32_t mean_colour(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
 } // namespace
 
 RefinedAircraft::RefinedAircraft(std::shared_ptr<const refine::ProgressiveMesh> mesh,
-    const refine::ViewRefinerOptions& options, const scene::ShadingSettings& shading)
-    : refiner_(std::move(mesh), options), selector_(shading_rule_of(shading)),
+    const refine::ViewRefinerOptions& options, const scene::ShadingSettings& shading,
+    std::shared_ptr<const refine::MeshCreases> creases)
+    : refiner_(std::move(mesh), options), creases_(std::move(creases)), selector_(shading_rule_of(shading)),
       shows_levels_(shading.show_model == scene::ModelDisplay::Levels) {}
 
 refine::RefinedFrame RefinedAircraft::update(const glm::dmat4& body_to_eye_world, const FrameView& view, bool first) {
@@ -149,6 +150,19 @@ void RefinedAircraft::write_flat(std::span<const std::uint32_t> corners) {
     vertices_.push_back(first);
 }
 
+/// A vertex of its own for a corner at a crease, with the normal that the face has there; else the vertex as it is.
+std::uint32_t RefinedAircraft::creased_vertex(
+    std::uint32_t vertex, std::uint32_t slot, std::uint32_t face, std::size_t corner) {
+    if (!creases_ || !creases_->is_creased[refiner_.front().node_at(slot)]) { return vertex; }
+    constexpr float same_cosine = 0.9986F;
+    const glm::vec3 normal = refine::unpacked(creases_->corner_normals[face].at(corner));
+    if (glm::dot(normal, vertices_[vertex].normal) > same_cosine) { return vertex; }
+    scene::ModelVertex own = vertices_[vertex];
+    own.normal = normal;
+    vertices_.push_back(own);
+    return static_cast<std::uint32_t>(vertices_.size() - 1);
+}
+
 void RefinedAircraft::write_indices() {
     const auto shared = refiner_.front().indices();
     const auto smooth = selector_.smooth();
@@ -158,11 +172,12 @@ void RefinedAircraft::write_indices() {
         if (corners[0] == corners[1]) {
             continue; // a place without a triangle
         }
-        if (all_flat_ || smooth[place] == 0) {
+        if (all_flat_ || (choosing_ && smooth[place] == 0)) {
             write_flat(corners);
-        } else {
-            indices_.insert(indices_.end(), corners.begin(), corners.end());
+            continue;
         }
+        const std::uint32_t face = refiner_.front().face_at(place);
+        for (std::size_t k = 0; k < 3; ++k) { indices_.push_back(creased_vertex(corners[k], corners[k], face, k)); }
     }
 }
 
@@ -171,12 +186,12 @@ scene::RefinedDraw RefinedAircraft::draw() {
     assert(!choosing_ || !front_changed_);
     if (drawn_changed_) {
         follow_front();
-        if (!all_smooth) { write_indices(); }
+        if (!all_smooth || creases_) { write_indices(); }
     }
     drawn_changed_ = false;
     scene::RefinedDraw draw;
     draw.vertices = vertices_;
-    draw.indices = all_smooth ? refiner_.front().indices() : indices_;
+    draw.indices = all_smooth && !creases_ ? refiner_.front().indices() : indices_;
     return draw;
 }
 
