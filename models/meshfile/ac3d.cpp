@@ -6,6 +6,7 @@
 #include "sim/base/error.h"
 #include "sim/base/text_file.h"
 #include "sim/base/text_scanner.h"
+#include "sim/base/units.h"
 
 #include <algorithm>
 #include <array>
@@ -23,6 +24,9 @@
 namespace octant::models::meshfile {
 
 namespace {
+
+/// The crease angle of objects that give none, in FlightGear.
+constexpr double default_crease_deg = 61.0;
 
 /// The options of an AC3D object and its children.
 struct Ac3dObject {
@@ -157,8 +161,7 @@ constexpr long max_count = 0x7fffffff;
 constexpr std::size_t min_vertex_bytes = 6; ///< "0 0 0" and what parts it from the next
 
 /// Keywords of an object that say nothing about its shape.
-constexpr std::array<std::string_view, 7> ignored_keywords{
-    "subdiv", "crease", "url", "hidden", "locked", "folded", "showname"};
+constexpr std::array<std::string_view, 6> ignored_keywords{"subdiv", "url", "hidden", "locked", "folded", "showname"};
 
 class Ac3dReading {
 public:
@@ -189,6 +192,8 @@ private:
         words_.word("a kind of object");
         AffineTransform own;
         ObjectPicture picture;
+        crease_rad_ = rad_from_deg(default_crease_deg);
+        ++smoothing_group_; // objects do not share vertices
         const Ac3dObject holder = object_;
         const std::size_t first_vertex = mesh_.vertex_count();
         while (true) {
@@ -207,6 +212,8 @@ private:
                 const std::string name = read_ac3d_name(rest, words_);
                 object_ = object_settings(name, holder, options_);
                 stand_ins_ += static_cast<std::size_t>(object_.is_placeholder);
+            } else if (word == "crease") {
+                crease_rad_ = rad_from_deg(std::clamp(words_.number("an angle"), 0.0, 180.0));
             } else if (word == "texture") {
                 take_picture(picture);
             } else if (word == "texrep" || word == "texoff") {
@@ -359,6 +366,8 @@ private:
         const bool is_two_sided = (kind & 0x20U) != 0;
         two_sided_ += static_cast<std::size_t>(is_two_sided && !mesh_.adds_back_faces());
         mesh_.set_two_sided(is_two_sided);
+        const bool is_smooth = (kind & 0x10U) != 0;
+        mesh_.set_smoothing({is_smooth ? smoothing_group_ : Smoothing::flat, static_cast<float>(crease_rad_)});
         mesh_.set_group(object_.group);
         if (mirrored) { std::ranges::reverse(corners_); }
         mesh_.add_polygon(corners_, materials_.used(material, picture.file, mesh_), picture.shown);
@@ -392,6 +401,8 @@ private:
     std::size_t stand_ins_ = 0; ///< objects left out
     std::size_t skipped_ = 0;
     std::size_t two_sided_ = 0;
+    double crease_rad_ = 0.0; ///< of the object at hand
+    std::uint32_t smoothing_group_ = Smoothing::flat;
     long missing_kids_ = 0; ///< that are announced and not there
     Ac3dObject object_;     ///< at hand
 };

@@ -1,5 +1,5 @@
 // FlightGear's model files: a PropertyList that names a mesh, other models with their offsets, and animations, which
-// are read as at rest: all properties 0, but for what turns in flight. Its axes are x back, y right, z up; AC3D files
+// are read as at rest (RestingProperties), but for what turns in flight. Its axes are x back, y right, z up; AC3D files
 // lie in them as (x, -z, y).
 #include "models/meshfile/flightgear_xml.h"
 #include "models/meshfile/mesh_builder.h"
@@ -132,58 +132,128 @@ RotationAxis axis_in(const XmlElement& animation) {
     return about;
 }
 
-bool holds(const XmlElement& condition);
-
-bool all_hold(const XmlElement& group) { return std::ranges::all_of(group.children, holds); }
-
-double at_rest(std::string_view property) {
-    constexpr double chase_view = 2.0; // 0 is the pilot's, in which much of the outside is hidden
-    return property.ends_with("current-view/view-number") ? chase_view : 0.0;
+/// A property's path without a slash in front and without indices of 0.
+std::string plain_path(std::string_view path) {
+    std::string plain(path.substr(std::min(path.find_first_not_of('/'), path.size())));
+    for (std::size_t at = 0; (at = plain.find("[0]", at)) != plain.npos;) { plain.erase(at, 3); }
+    return plain;
 }
 
-/// What a side of a comparison is worth.
-double number_of(const XmlElement& side) {
-    return side.name == "property" ? at_rest(side.text) : finite_number(side.text).value_or(0.0);
-}
-
-/// Less, equal or greater, as -1, 0 or 1. Of texts only whether they are empty counts, as a property at rest is.
-int order_of(const XmlElement& comparison) {
-    std::array<double, 2> sides{};
-    std::size_t count = 0;
-    for (const XmlElement& side : comparison.children) {
-        const bool is_text = side.name == "value" && !finite_number(side.text);
-        if (count < sides.size()) { sides.at(count++) = is_text && !side.text.empty() ? 1.0 : number_of(side); }
+/// What properties are worth at rest: what an aircraft's -set.xml states, then a table, else nothing, which is 0 or an
+/// empty text.
+class RestingProperties {
+public:
+    /// Takes the values below an element of a -set.xml, whose path is `path`.
+    void take(const XmlElement& element, const std::string& path, int depth = 0) {
+        constexpr int deepest = 12;
+        constexpr std::size_t most = 100'000;
+        std::map<std::string, int> counts;
+        for (const XmlElement& child : element.children) {
+            const int number = child.number ? *child.number : counts[child.name];
+            counts[child.name] = number + 1;
+            const std::string name = number > 0 ? fmt::format("{}[{}]", child.name, number) : child.name;
+            const std::string child_path = path.empty() ? name : fmt::format("{}/{}", path, name);
+            if (child.children.empty() && values_.size() < most) { values_.try_emplace(child_path, child.text); }
+            if (depth < deepest) { take(child, child_path, depth + 1); }
+        }
     }
-    return sides[0] < sides[1] ? -1 : sides[0] > sides[1] ? 1 : 0;
+
+    std::string text(std::string_view property) const {
+        const std::string path = plain_path(property);
+        const auto* const resting = std::ranges::find_if(
+            resting_values, [&](const RestingValue& one) { return path.ends_with(one.end_of_path); });
+        if (resting != resting_values.end()) { return std::string(resting->value); }
+        const auto stated = values_.find(path);
+        return stated == values_.end() ? std::string() : stated->second;
+    }
+
+    double number(std::string_view property) const {
+        const std::string value = text(property);
+        return value == "true" ? 1.0 : finite_number(value).value_or(0.0);
+    }
+
+private:
+    struct RestingValue {
+        std::string_view end_of_path;
+        std::string_view value;
+    };
+
+    /// Seen from outside, in the air: gear and flaps up, doors and canopies shut, nothing deflected, lights off.
+    static constexpr std::array resting_values{
+        RestingValue{"current-view/view-number", "2"}, // 0 is the pilot's, in which much of the outside is hidden
+        RestingValue{"current-view/internal", "0"}, RestingValue{"position-norm", "0"}, RestingValue{"wow", "0"},
+        RestingValue{"crashed", "0"}, RestingValue{"sim/freeze/replay-state", "0"}};
+
+    std::map<std::string, std::string> values_; ///< by plain paths
+};
+
+bool holds(const XmlElement& condition, const RestingProperties& properties);
+
+bool all_hold(const XmlElement& group, const RestingProperties& properties) {
+    return std::ranges::all_of(group.children, [&](const XmlElement& one) { return holds(one, properties); });
 }
 
-bool holds(const XmlElement& condition) {
+std::string text_of_side(const XmlElement& side, const RestingProperties& properties) {
+    return side.name == "property" ? properties.text(side.text) : side.text;
+}
+
+double number_of(const XmlElement& side, const RestingProperties& properties) {
+    return side.name == "property" ? properties.number(side.text)
+           : side.text == "true"   ? 1.0
+                                   : finite_number(side.text).value_or(0.0);
+}
+
+/// Less, equal or greater, as -1, 0 or 1; as texts where a side is a text that is no number.
+int order_of(const XmlElement& comparison, const RestingProperties& properties) {
+    std::vector<const XmlElement*> sides;
+    for (const XmlElement& side : comparison.children) {
+        if (side.name == "property" || side.name == "value") { sides.push_back(&side); }
+    }
+    if (sides.size() < 2) { return sides.empty() || number_of(*sides[0], properties) == 0.0 ? 0 : 1; }
+    const auto is_word = [](const XmlElement& side) {
+        return side.name == "value" && !side.text.empty() && side.text != "true" && side.text != "false" &&
+               !finite_number(side.text);
+    };
+    if (is_word(*sides[0]) || is_word(*sides[1])) {
+        return text_of_side(*sides[0], properties).compare(text_of_side(*sides[1], properties));
+    }
+    const double one = number_of(*sides[0], properties);
+    const double other = number_of(*sides[1], properties);
+    return one < other ? -1 : one > other ? 1 : 0;
+}
+
+bool holds(const XmlElement& condition, const RestingProperties& properties) {
     const std::string_view kind = condition.name;
-    if (kind == "property") { return at_rest(condition.text) != 0.0; }
-    if (kind == "not") { return !all_hold(condition); }
-    if (kind == "or") { return std::ranges::any_of(condition.children, holds); }
-    if (kind == "and") { return all_hold(condition); }
-    const int order = order_of(condition);
+    if (kind == "property") { return properties.number(condition.text) != 0.0; }
+    if (kind == "not") { return !all_hold(condition, properties); }
+    if (kind == "or") {
+        return std::ranges::any_of(condition.children, [&](const XmlElement& one) { return holds(one, properties); });
+    }
+    if (kind == "and") { return all_hold(condition, properties); }
+    const int order = order_of(condition, properties);
     const bool negated = kind.ends_with("not-equals");
     return (kind == "less-than" && order < 0) || (kind == "less-than-equals" && order <= 0) ||
            (kind == "greater-than" && order > 0) || (kind == "greater-than-equals" && order >= 0) ||
            (kind == "equals" && order == 0) || (negated && order != 0);
 }
 
-/// Whether the <condition> of a FlightGear animation holds while all properties are 0 but for the view, which is one
-/// from outside: an aircraft as it stands in its file, gear up, doors shut, lights off. True without a condition.
-bool holds_at_rest(const XmlElement& animation) {
+/// Whether the <condition> of a FlightGear animation holds at rest. True without a condition.
+bool holds_at_rest(const XmlElement& animation, const RestingProperties& properties) {
     const XmlElement* condition = animation.find("condition");
-    return condition == nullptr || all_hold(*condition);
+    return condition == nullptr || all_hold(*condition, properties);
 }
 
 /// An animation by which something turns in flight; axes of the FlightGear model.
 struct FlightGearRotation {
     Names objects; ///< by name; empty: all of the model
     RotationAxis about;
+    double first_angle_rad = 0.0; ///< at which it stands at time 0
+    /// Of one blade: its number, and what its rotor is called; the blades stand evenly around the axis.
+    std::optional<int> blade = {};
+    std::string rotor = {};
 };
 
-/// Where a `rotate` or `translate` animation puts what it names while all properties are 0: landing gear up, for one.
+/// Where a `rotate` or `translate` animation puts what it names at rest: landing gear up, for one.
 /// Axes of the FlightGear model.
 struct FlightGearRestPlacement {
     Names objects; ///< by name; an empty one: all of the model
@@ -204,11 +274,11 @@ struct FlightGearAnimations {
     std::vector<std::string> notes; ///< faults in them; often none
 
     /// What turns an object; the empty name stands for all of the model. Null for what stays.
-    const RotationAxis* axis_of(const std::string& object) const {
+    const FlightGearRotation* turn_of(const std::string& object) const {
         const auto found = std::ranges::find_if(turns, [&](const FlightGearRotation& turn) {
             return object.empty() ? turn.objects.empty() : turn.objects.contains(object);
         });
-        return found == turns.end() ? nullptr : &found->about;
+        return found == turns.end() ? nullptr : &*found;
     }
 
     /// Where an object stands at rest; the empty name stands for all of the model. What turns in flight is not moved:
@@ -216,7 +286,7 @@ struct FlightGearAnimations {
     AffineTransform place_of(const std::string& object) const {
         AffineTransform place;
         for (const FlightGearRestPlacement& move : moves) {
-            if (move.objects.contains(object) && axis_of(object) == nullptr) { place = place.of(move.placement); }
+            if (move.objects.contains(object) && turn_of(object) == nullptr) { place = place.of(move.placement); }
         }
         return place;
     }
@@ -278,6 +348,25 @@ bool is_of_other_wheels(std::string_view property) {
         [&](std::string_view part) { return property.find(part) != property.npos; });
 }
 
+/// A blade that the property of a rotor's angle names, such as rotors/main/blade[2]/position-deg.
+void take_blade(std::string_view property, double factor, FlightGearRotation& turn) {
+    constexpr std::string_view name = "blade[";
+    const std::size_t at = property.find(name);
+    if (at == property.npos) {
+        if (property.find("blade/") == property.npos) { return; }
+        turn.blade = 0;
+        turn.rotor = plain_path(property.substr(0, property.find("blade/")));
+    } else {
+        const std::string_view digits = property.substr(at + name.size());
+        const auto number = whole_number(digits.substr(0, digits.find(']')));
+        constexpr long most_blades = 32;
+        if (!number || *number < 0 || *number >= most_blades) { return; }
+        turn.blade = static_cast<int>(*number);
+        turn.rotor = plain_path(property.substr(0, at));
+    }
+    turn.rotor += factor < 0.0 ? '-' : '+';
+}
+
 /// What an animation turns while the aircraft flies: `spin` of engines and rotors, `rotate` by a rotor's angle. They
 /// turn as at cruise, since a file says by which property only: propellers at 2400 turns a minute, main rotors at 390,
 /// tail rotors at 2000, turbines at 90 per cent. `spin` by a property that does not say what it is of turns what is
@@ -302,17 +391,20 @@ std::optional<FlightGearRotation> rotation_in_flight(const XmlElement& animation
     turn.about.turns_per_s =
         kind == "spin" ? interpolated(animation, rate) * factor / 60.0 : std::copysign(rate, factor) / 60.0;
     turn.objects = objects_of(animation);
+    const double first_deg = number_in(animation, kind == "spin" ? "starting-position-deg" : "offset-deg");
+    turn.first_angle_rad = rad_from_deg(std::fmod(first_deg, 360.0));
+    take_blade(property, factor, turn);
     return turn;
 }
 
-/// Degrees or metres, for the property's value of 0; without one for the position at the start. `unit`: as its
+/// Degrees or metres, for the property's value at rest; without one for the position at the start. `unit`: as its
 /// elements' names end.
-double value_at_rest(const XmlElement& animation, std::string_view unit) {
+double value_at_rest(const XmlElement& animation, std::string_view unit, const RestingProperties& properties) {
     const auto number = [&](std::string_view name, double without) {
         return number_in(animation, std::string(name) + std::string(unit), without);
     };
-    const bool has_property = !animation.text_of("property").empty();
-    const double input = has_property ? 0.0 : number("starting-position", 0.0);
+    const std::string_view property = animation.text_of("property");
+    const double input = property.empty() ? number("starting-position", 0.0) : properties.number(property);
     if (animation.find("interpolation") != nullptr) { return interpolated(animation, input); }
     constexpr double any = std::numeric_limits<double>::max();
     const double factor = input == 0.0 ? 1.0 : number_in(animation, "factor", 1.0);
@@ -327,13 +419,15 @@ AffineTransform turned_about(const RotationAxis& axis, double angle_rad) {
 
 /// Nothing for other animations, for those that leave everything where it is, whose condition does not hold at rest, or
 /// that compute an <expression>. Throws Error for faulty numbers.
-std::optional<FlightGearRestPlacement> placement_at_rest(const XmlElement& animation) {
+std::optional<FlightGearRestPlacement> placement_at_rest(
+    const XmlElement& animation, const RestingProperties& properties) {
     const std::string_view kind = animation.text_of("type");
     const bool turns = kind == "rotate";
-    if ((!turns && kind != "translate") || animation.find("expression") != nullptr || !holds_at_rest(animation)) {
+    if ((!turns && kind != "translate") || animation.find("expression") != nullptr ||
+        !holds_at_rest(animation, properties)) {
         return std::nullopt;
     }
-    const double value = value_at_rest(animation, turns ? "-deg" : "-m");
+    const double value = value_at_rest(animation, turns ? "-deg" : "-m", properties);
     if (value == 0.0) { // then its axis does not count: files have faulty ones
         return std::nullopt;
     }
@@ -381,7 +475,8 @@ void add_shadows(const XmlElement& animation, Names& hidden) {
 /// Turns of objects about the same axis become one: each costs a reading of the mesh.
 void add_turn(FlightGearRotation turn, std::vector<FlightGearRotation>& turns) {
     const auto found = std::ranges::find_if(turns, [&](const FlightGearRotation& other) {
-        return other.objects.empty() == turn.objects.empty() && other.about.point_m == turn.about.point_m &&
+        return other.objects.empty() == turn.objects.empty() && other.first_angle_rad == turn.first_angle_rad &&
+               other.blade == turn.blade && other.rotor == turn.rotor && other.about.point_m == turn.about.point_m &&
                other.about.direction == turn.about.direction && other.about.turns_per_s == turn.about.turns_per_s;
     });
     if (found != turns.end()) {
@@ -406,9 +501,9 @@ auto unless_faulty(const Read& read, const XmlElement& animation, std::vector<st
 /// Whether an animation hides what it names from an eye outside, at rest. Ranges that begin within some metres hide a
 /// pilot from his own eye; those that begin at a level of detail hold coarser levels, which are not needed: the finest
 /// one is refined. One whose numbers are faulty hides nothing.
-bool hides(const XmlElement& animation, std::vector<std::string>& notes) {
+bool hides(const XmlElement& animation, const RestingProperties& properties, std::vector<std::string>& notes) {
     const std::string_view kind = animation.text_of("type");
-    if (kind != "range") { return kind == "light" || !holds_at_rest(animation); }
+    if (kind != "range") { return kind == "light" || !holds_at_rest(animation, properties); }
     try {
         constexpr double eye_outside_m = 10.0;
         return animation.find("min-property") != nullptr || number_in(animation, "min-m") > eye_outside_m;
@@ -419,14 +514,14 @@ bool hides(const XmlElement& animation, std::vector<std::string>& notes) {
 }
 
 /// `root`: of flightgear_tree(file).
-FlightGearAnimations flightgear_animations(const XmlElement& root) {
+FlightGearAnimations flightgear_animations(const XmlElement& root, const RestingProperties& properties) {
     const Groups groups = groups_in(root);
     FlightGearAnimations animated;
     for (const XmlElement& child : root.children) {
         const std::string kind(child.text_of("type"));
         if (child.name != "animation" || kind.empty()) { continue; }
         if (kind == "range" || kind == "select" || kind == "light") {
-            if (hides(child, animated.notes)) {
+            if (hides(child, properties, animated.notes)) {
                 Names objects = objects_of(child);
                 if (objects.empty()) { objects.insert(""); }
                 animated.hidden.merge(objects);
@@ -443,7 +538,8 @@ FlightGearAnimations flightgear_animations(const XmlElement& root) {
         } else {
             ++animated.at_rest[kind];
             if (kind == "translate" || kind == "rotate") { add_shadows(child, animated.hidden); }
-            if (auto move = unless_faulty(placement_at_rest, child, animated.notes)) {
+            const auto rest = [&](const XmlElement& animation) { return placement_at_rest(animation, properties); };
+            if (auto move = unless_faulty(rest, child, animated.notes)) {
                 expand(move->objects, groups);
                 animated.moves.push_back(std::move(*move));
             }
@@ -476,6 +572,7 @@ public:
 
     RotatingModel read() {
         take_model(model_file(), {}, nullptr, 0);
+        join_turning();
         if (model_.body.triangles.empty()) { // all of it turns: then none of it does
             for (RotatingPart& part : std::exchange(model_.parts, {})) {
                 join_mesh(model_.body, std::move(part.mesh), {});
@@ -501,9 +598,10 @@ public:
 
 private:
     /// An aircraft's own file, such as b25-set.xml, names its model among much else.
-    fs::path model_file() const {
+    fs::path model_file() {
         if (!path_.filename().string().ends_with("-set.xml")) { return path_; }
         const XmlElement root = flightgear_tree(path_);
+        properties_.take(root, "");
         for (const XmlElement& sim : root.children) {
             const XmlElement* model = sim.name == "sim" ? sim.find("model") : nullptr;
             const std::string name(model == nullptr ? "" : model->text_of("path"));
@@ -527,7 +625,7 @@ private:
     }
 
     /// `about`: what turns all of it; null for what does not turn as a whole.
-    void take_model(const fs::path& file, const AffineTransform& parent, const RotationAxis* about, int depth) {
+    void take_model(const fs::path& file, const AffineTransform& parent, const FlightGearRotation* about, int depth) {
         if (extension_of(file) != ".xml") {
             add_mesh(file, parent, {}, about);
             return;
@@ -539,7 +637,7 @@ private:
         AffineTransform own = parent.of(offsets(root));
         const FlightGearAnimations animated = animations_of(root, own);
         if (animated.hidden.contains("") && depth > 0) { return; }
-        about = about == nullptr ? animated.axis_of("") : about;
+        about = about == nullptr ? animated.turn_of("") : about;
         options_.pictures_in = flightgear_pictures(file, std::string(root.text_of("texture-path")));
         if (const std::string name(root.text_of("path")); !name.empty()) {
             if (depth == 0 && flightgear_file(file, name).empty()) {
@@ -559,8 +657,8 @@ private:
             const std::string path(child.text_of("path"));
             const std::string name(child.text_of("name"));
             const bool is_hidden = !name.empty() && animated.hidden.contains(name);
-            if (child.name == "model" && !path.empty() && !is_hidden && holds_at_rest(child)) {
-                const RotationAxis* turned = about == nullptr && !name.empty() ? animated.axis_of(name) : about;
+            if (child.name == "model" && !path.empty() && !is_hidden && holds_at_rest(child, properties_)) {
+                const FlightGearRotation* turned = about == nullptr && !name.empty() ? animated.turn_of(name) : about;
                 const AffineTransform moved = name.empty() ? own : own.of(animated.place_of(name));
                 take_named(file, path, moved.of(offsets(child)), {}, turned, depth);
             }
@@ -569,7 +667,7 @@ private:
 
     /// Also moves `own`, the model, to where it stands at rest.
     FlightGearAnimations animations_of(const XmlElement& root, AffineTransform& own) {
-        FlightGearAnimations animated = flightgear_animations(root);
+        FlightGearAnimations animated = flightgear_animations(root, properties_);
         own = own.of(animated.place_of(""));
         for (FlightGearRotation& turn : animated.turns) {
             turn.about.point_m = own.turn * turn.about.point_m + own.shift_m;
@@ -581,7 +679,7 @@ private:
     }
 
     void take_named(const fs::path& from, const std::string& name, const AffineTransform& placement,
-        const FlightGearAnimations& animated, const RotationAxis* about, int depth) {
+        const FlightGearAnimations& animated, const FlightGearRotation* about, int depth) {
         const fs::path file = flightgear_file(from, name);
         if (file.empty()) {
             note_once(fmt::format("{}: no file of path '{}'", from.string(), printable(name)));
@@ -595,14 +693,15 @@ private:
     }
 
     /// A faulty file below the first one costs itself alone.
-    void take_sub_model(const fs::path& file, const AffineTransform& placement, const RotationAxis* about, int depth) {
+    void take_sub_model(
+        const fs::path& file, const AffineTransform& placement, const FlightGearRotation* about, int depth) {
         try {
             take_model(file, placement, about, depth);
         } catch (const Error& fault) { note_once(fmt::format("{}; what else is in there is left out", fault.what())); }
     }
 
     void add_mesh(const fs::path& file, const AffineTransform& placement, const FlightGearAnimations& animated,
-        const RotationAxis* about) {
+        const FlightGearRotation* about) {
         if (!animated.turns.empty() && extension_of(file) != ".ac") {
             note_once(file.string() + ": its objects are not told apart, so none of them turns");
         }
@@ -619,10 +718,10 @@ private:
         try {
             MeshParts parts = read_parts(file, options);
             const AffineTransform placed = in_model(file, placement);
-            join_mesh(about == nullptr ? model_.body : part_about(*about), std::move(parts.body), placed);
+            join_mesh(about == nullptr ? model_.body : turning_mesh(*about), std::move(parts.body), placed);
             for (std::size_t i = 0; i < parts.groups.size(); ++i) {
                 if (!parts.groups[i].triangles.empty()) {
-                    join_mesh(part_about(animated.turns[i].about), std::move(parts.groups[i]), placed);
+                    join_mesh(turning_mesh(animated.turns[i]), std::move(parts.groups[i]), placed);
                 }
             }
             join_clear(std::move(parts.clear), placed);
@@ -648,6 +747,40 @@ private:
         return placement.of({extension_of(file) == ".ac" ? from_ac3d : glm::dmat3(1.0)});
     }
 
+    /// What turns in one way, as it stands in its file.
+    struct TurningMesh {
+        FlightGearRotation turn;
+        TriangleMesh mesh;
+    };
+
+    TriangleMesh& turning_mesh(const FlightGearRotation& turn) {
+        const auto known = std::ranges::find_if(turning_, [&](const TurningMesh& one) {
+            return one.turn.about.point_m == turn.about.point_m && one.turn.about.direction == turn.about.direction &&
+                   one.turn.about.turns_per_s == turn.about.turns_per_s && one.turn.blade == turn.blade &&
+                   one.turn.rotor == turn.rotor && one.turn.first_angle_rad == turn.first_angle_rad;
+        });
+        return known != turning_.end() ? known->mesh : turning_.emplace_back(TurningMesh{turn, {}}).mesh;
+    }
+
+    /// Turns blades to where they stand at time 0, evenly around their rotor's axis.
+    void join_turning() {
+        std::map<std::string, int> blades;
+        for (const TurningMesh& one : turning_) {
+            int& count = blades[one.turn.rotor];
+            count = std::max(count, one.turn.blade.value_or(0) + 1);
+        }
+        for (TurningMesh& one : turning_) {
+            const bool is_backward = one.turn.rotor.ends_with('-');
+            const double share = static_cast<double>(one.turn.blade.value_or(0)) / blades[one.turn.rotor];
+            const double angle_rad =
+                one.turn.first_angle_rad + (is_backward ? -1.0 : 1.0) * share * rad_from_deg(360.0);
+            const AffineTransform turned =
+                angle_rad == 0.0 ? AffineTransform() : turned_about(one.turn.about, angle_rad);
+            join_mesh(part_about(one.turn.about), std::move(one.mesh), turned);
+        }
+        turning_.clear();
+    }
+
     /// The mesh of what turns about an axis: of several blades it is the same.
     TriangleMesh& part_about(const RotationAxis& about) {
         constexpr double near_m = 0.01;
@@ -668,6 +801,8 @@ private:
     fs::path path_;
     ReadOptions options_;
     RotatingModel model_;
+    RestingProperties properties_;
+    std::vector<TurningMesh> turning_;
     std::size_t models_ = 0;
     std::map<std::string, int> at_rest_; ///< animations, by their types
     std::set<std::string> told_;
@@ -677,6 +812,7 @@ private:
 
 RotatingModel read_rotating_model(const fs::path& path, const ReadOptions& options) {
     if (extension_of(path) == ".xml") { return FlightGearReading(path, options).read(); }
+    if (extension_of(path) == ".dnm") { return read_rotating_dnm(path, options); }
     ReadOptions alone = options;
     alone.placeholders = false;
     MeshParts parts = read_parts(path, alone);

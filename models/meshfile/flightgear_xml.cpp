@@ -62,6 +62,10 @@ public:
         }
         made.name = node.name();
         made.include = node.attribute("include").value();
+        constexpr long most = 100'000;
+        if (const auto number = whole_number(node.attribute("n").value()); number && *number >= 0 && *number < most) {
+            made.number = static_cast<int>(*number);
+        }
         for (const pugi::xml_node& child : node) {
             if (child.type() == pugi::node_element) {
                 made.children.push_back(element(child, depth + 1));

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -16,11 +17,12 @@ std::filesystem::path flightgear_file(const std::filesystem::path& model, const 
 std::filesystem::path flightgear_pictures(const std::filesystem::path& model, const std::string& texture_path);
 
 /// An element of an XML file: its name, its own text without blanks at the ends, and its child elements. Of its
-/// attributes only `include` is read.
+/// attributes only `include` and `n` are read.
 struct XmlElement {
     std::string name;
     std::string text;
-    std::string include; ///< the attribute of this name; empty if missing
+    std::string include;       ///< the attribute of this name; empty if missing
+    std::optional<int> number; ///< the attribute `n`, which counts elements of one name
     std::vector<XmlElement> children;
     std::shared_ptr<const std::filesystem::path> file;
     int line = 0;

@@ -2,6 +2,7 @@
 #include "models/meshfile/mesh_builder.h"
 #include "models/meshfile/mesh_formats.h"
 #include "models/meshfile/mesh_join.h"
+#include "models/meshfile/meshopt_decoder.h"
 #include "sim/base/binary_file.h"
 #include "sim/base/error.h"
 #include "sim/base/text_file.h"
@@ -293,16 +294,66 @@ private:
     }
 
     std::string_view view(std::size_t index, std::size_t& stride) {
-        const std::string where = fmt::format("bufferViews[{}]", index);
         const Json& json = entry("bufferViews", index);
+        if (const Json* packed = packed_view(json)) { return unpacked_view(index, *packed, stride); }
+        return bytes_in_buffer(json, fmt::format("bufferViews[{}]", index), stride);
+    }
+
+    std::string_view bytes_in_buffer(const Json& json, const std::string& where, std::size_t& stride) {
         const auto buffer_index = this->index(json, "buffer", buffers_.size(), where);
         if (!buffer_index) { refuse(where, "a buffer", "none"); }
         const std::string_view bytes = buffer(*buffer_index);
         const std::size_t first = this->index(json, "byteOffset", bytes.size() + 1, where).value_or(0);
         const auto length = this->index(json, "byteLength", bytes.size() - first + 1, where);
         if (!length) { refuse(where, "a byteLength", "none"); }
-        stride = this->index(json, "byteStride", 253, where).value_or(0);
+        stride = this->index(json, "byteStride", 257, where).value_or(0);
         return bytes.substr(first, *length);
+    }
+
+    /// A view as EXT_meshopt_compression packs it; null where it does not.
+    const Json* packed_view(const Json& view) const {
+        const auto extensions = view.find("extensions");
+        if (extensions == view.end() || !extensions->is_object()) { return nullptr; }
+        for (const char* name : {"EXT_meshopt_compression", "KHR_meshopt_compression"}) {
+            const auto found = extensions->find(name);
+            if (found != extensions->end() && found->is_object()) { return &*found; }
+        }
+        return nullptr;
+    }
+
+    std::string_view unpacked_view(std::size_t index, const Json& packed, std::size_t& stride) {
+        const std::string where = fmt::format("bufferViews[{}]", index);
+        std::size_t ignored = 0;
+        const std::string_view bytes = bytes_in_buffer(packed, where, ignored);
+        constexpr std::size_t any = std::size_t{1} << 32U;
+        MeshoptView view;
+        view.count = this->index(packed, "count", any, where).value_or(0);
+        view.stride = this->index(packed, "byteStride", 257, where).value_or(0);
+        const Json mode = packed.value("mode", Json());
+        const Json filter = packed.value("filter", Json("NONE"));
+        if (mode != "ATTRIBUTES" && mode != "TRIANGLES" && mode != "INDICES") {
+            refuse(where + ".mode", "ATTRIBUTES, TRIANGLES or INDICES", shown(mode));
+        }
+        if (filter != "NONE" && filter != "OCTAHEDRAL" && filter != "EXPONENTIAL") {
+            refuse(where + ".filter", "NONE, OCTAHEDRAL or EXPONENTIAL", shown(filter));
+        }
+        using enum MeshoptView::Mode;
+        view.mode = mode == "ATTRIBUTES" ? Attributes : mode == "TRIANGLES" ? Triangles : Indices;
+        view.filter = filter == "NONE"         ? MeshoptView::Filter::None
+                      : filter == "OCTAHEDRAL" ? MeshoptView::Filter::Octahedral
+                                               : MeshoptView::Filter::Exponential;
+        stride = view.stride;
+        std::string& unpacked = unpacked_[index];
+        if (unpacked.empty()) {
+            try {
+                unpacked = meshopt_unpacked(bytes, view);
+            } catch (const Error& fault) { throw_error_in(path_, fmt::format("{}: {}", where, fault.what())); }
+            loaded_bytes_ += unpacked.size();
+            if (loaded_bytes_ > largest_buffers_bytes) {
+                refuse(where, fmt::format("buffers of at most {} bytes", largest_buffers_bytes), "more");
+            }
+        }
+        return unpacked;
     }
 
     std::filesystem::path path_;
@@ -310,6 +361,7 @@ private:
     Json root_;
     std::optional<std::string_view> binary_; ///< the second chunk of a .glb
     std::vector<std::optional<std::string>> buffers_;
+    std::map<std::size_t, std::string> unpacked_; ///< views that were packed
     std::size_t loaded_bytes_ = 0;
 };
 
@@ -549,8 +601,7 @@ std::optional<std::size_t> texture_accessor(
 }
 
 constexpr std::size_t max_gltf_numbers = std::size_t{1} << 27U; ///< of corners and vertices
-constexpr std::array<std::string_view, 3> packed_extensions{
-    "KHR_draco_mesh_compression", "EXT_meshopt_compression", "KHR_meshopt_compression"};
+constexpr std::string_view draco_extension = "KHR_draco_mesh_compression";
 
 /// Floats, and the whole numbers of KHR_mesh_quantization.
 constexpr std::array<int, 5> place_components{5126, 5120, 5121, 5122, 5123};
@@ -575,12 +626,13 @@ public:
     }
 
 private:
+    /// Draco meshes are unpacked before by octant-read-mesh.
     void refuse_packed_meshes() const {
         for (const Json& name : data_.list(data_.root(), "extensionsRequired", "")) {
-            for (const std::string_view packed : packed_extensions) {
-                if (name.is_string() && name.get_ref<const std::string&>() == packed) {
-                    data_.refuse("extensionsRequired", "plain accessors", std::string(packed));
-                }
+            if (name.is_string() && name.get_ref<const std::string&>() == draco_extension) {
+                data_.refuse("extensionsRequired",
+                    "accessors that Draco does not pack (gltf-transform copy IN.glb OUT.glb or Blender unpacks them)",
+                    std::string(draco_extension));
             }
         }
     }
@@ -611,6 +663,7 @@ private:
         const auto normal = data_.index(*attributes, "NORMAL", accessors, where);
         const auto [first_vertex, count] = vertices(*position, colour.value_or(accessors), placement, where);
         std::uint32_t first_normal = invalid_index;
+        mesh_.set_smoothing({Smoothing::flat}); // as the specification wants it where normals are missing
         if (normal) { first_normal = normals(*normal, count, placement, where); }
         std::vector<std::uint32_t> corners = corner_list(primitive, count, where);
         const auto material = data_.index(primitive, "material", materials_.size(), where);

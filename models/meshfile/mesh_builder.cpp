@@ -343,6 +343,7 @@ void MeshBuilder::add_triangle(const std::array<CornerIndices, 3>& corners, std:
     mesh_.corner_texture_coordinates.push_back({a.texture, b.texture, c.texture});
     mesh_.triangle_materials.push_back(material);
     two_sided_.push_back(is_two_sided_);
+    smoothings_.push_back(smoothing_);
     groups_.push_back(group_);
     has_normals_ = has_normals_ || a.normal != invalid_index || b.normal != invalid_index || c.normal != invalid_index;
     has_texture_coordinates_ = has_texture_coordinates_ || a.texture != invalid_index;
@@ -453,6 +454,7 @@ void MeshBuilder::take_out(const std::vector<bool>& gone) {
         std::erase_if(list, [&](const auto&) { return gone[t++]; });
     };
     take(two_sided_);
+    take(smoothings_);
     take(groups_);
     if (!covers_.empty()) { take(covers_); }
     if (options_.pictures) { pictures_.take_out(gone); }
@@ -489,6 +491,10 @@ void MeshBuilder::bake_pictures() {
 }
 
 void MeshBuilder::finish_normals() {
+    if (std::ranges::any_of(smoothings_, [](const Smoothing& one) { return one.group != Smoothing::unknown; })) {
+        add_smooth_normals(mesh_, smoothings_);
+        has_normals_ = true;
+    }
     if (!has_normals_) {
         mesh_.normals.clear();
         mesh_.corner_normals = std::vector<Triangle>(); // It was as large as the triangles.

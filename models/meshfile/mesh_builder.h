@@ -3,6 +3,7 @@
 #include "models/heights/image.h"
 #include "models/meshfile/mesh_parts.h"
 #include "models/meshfile/picture_path.h"
+#include "models/meshfile/smooth_normals.h"
 #include "models/meshfile/texture_store.h"
 #include "models/triangle_mesh.h"
 
@@ -180,6 +181,9 @@ public:
     /// The material of all faces to which the file gives this colour; added when it is first used.
     std::uint32_t face_colour_material(const glm::vec3& colour);
 
+    /// Sets how the polygons added next are shaded, for their corners without a normal.
+    void set_smoothing(const Smoothing& smoothing) { smoothing_ = smoothing; }
+
     /// Sets the group (index into ReadOptions::groups) of the polygons added next; invalid_index: none.
     void set_group(std::uint32_t group) { group_ = group; }
 
@@ -229,6 +233,8 @@ private:
     std::vector<bool> two_sided_;              ///< one for each triangle
     std::vector<std::uint32_t> groups_;        ///< one for each triangle
     std::vector<BakedPictures::Cover> covers_; ///< one for each triangle, once computed
+    std::vector<Smoothing> smoothings_;        ///< one for each triangle
+    Smoothing smoothing_;
     std::uint32_t group_ = invalid_index;
     bool is_two_sided_ = false;
     bool is_part_ = false;  ///< this builds a part of a larger mesh

@@ -12,6 +12,7 @@
 #include <cctype>
 #include <cmath>
 #include <fmt/format.h>
+#include <fstream>
 #include <limits>
 #include <memory>
 #include <set>
@@ -21,19 +22,47 @@
 
 namespace octant::models::meshfile {
 
+namespace {
+
+/// The first bytes of a file; empty where it cannot be read.
+std::string start_of(const std::filesystem::path& path) {
+    std::array<char, 512> bytes{};
+    std::ifstream in(path, std::ios::binary);
+    in.read(bytes.data(), bytes.size());
+    return {bytes.data(), static_cast<std::size_t>(in.gcount())};
+}
+
+} // namespace
+
+bool is_xplane_object(const std::filesystem::path& path) { return is_xplane_text(start_of(path)); }
+
 std::optional<polygons::FileAxes> axes_of_format(const std::filesystem::path& file) {
     const std::string ending = extension_of(file);
     if (ending == ".ac") { return polygons::FileAxes::from_text("back,up,left"); }
-    if (ending == ".gltf" || ending == ".glb") { return polygons::FileAxes::from_text("left,up,forward"); }
+    if (ending == ".dnm" || ending == ".srf") { return polygons::FileAxes::from_text("left,up,forward"); }
+    if (ending == ".obj" && is_xplane_object(file)) { return polygons::FileAxes(); }
     if (ending == ".xml") { return polygons::FileAxes::from_text("back,right,up"); }
     return std::nullopt;
 }
 
-std::optional<polygons::FileAxes> default_axes_of_format(const std::filesystem::path& file) {
-    constexpr std::array<std::string_view, 5> scenes{".flt", ".ive", ".osg", ".osgb", ".osgt"};
-    return std::ranges::find(scenes, extension_of(file)) == scenes.end()
-               ? std::nullopt
-               : std::optional(polygons::FileAxes::from_text("right,forward,up"));
+std::vector<polygons::AxesHint> axes_hints_of_format(const std::filesystem::path& file) {
+    using enum polygons::AxesHint::Subject;
+    constexpr double declared = 4.5;
+    constexpr double usual = 3.0; // hardly any file has its top downwards
+    constexpr glm::dvec3 y(0.0, 1.0, 0.0);
+    constexpr glm::dvec3 z(0.0, 0.0, 1.0);
+    const std::string ending = extension_of(file);
+    const auto is_one_of = [&](std::string_view endings) {
+        const auto words = split_words(endings);
+        return std::ranges::find(words, ending) != words.end();
+    };
+    if (is_one_of(".gltf .glb")) { return {{Top, y, declared}, {Top, z, 1.5}, {Nose, z, 1.0}}; }
+    if (is_one_of(".flt .ive .osg .osgb .osgt")) { return {{Top, z, declared}, {Top, y, 1.5}, {Nose, y, 1.0}}; }
+    if (is_one_of(".3ds .ase .b3d .blend .dae .dxf .fbx .lwo .lws .md2 .ms3d .wrl .x")) {
+        return {{Top, y, declared}, {Top, z, 2.0}, {Nose, -z, 0.3}, {Nose, z, 0.2}};
+    }
+    if (ending == ".stl") { return {{Top, z, usual + 0.2}, {Top, y, usual}, {Nose, y, 0.2}}; }
+    return {{Top, y, usual + 0.2}, {Top, z, usual}, {Nose, -z, 0.3}, {Nose, z, 0.2}};
 }
 
 namespace {
@@ -119,7 +148,8 @@ constexpr std::array formats{Format{".obj", read_obj, true, write_obj_mesh},
     Format{".off", read_off}, Format{".gltf", read_gltf, true, write_gltf_mesh<gltf_text>, "", true, true},
     Format{".glb", read_gltf, true, write_gltf_mesh<glb_bytes>, "", true, true},
     Format{".ac", read_ac3d, true, write_ac3d_mesh, "normals, colours of vertices"},
-    Format{".wrl", read_vrml, false, write_one_file<vrml_text>, "texture coordinates"}, Format{".xml", nullptr}};
+    Format{".wrl", read_vrml, false, write_one_file<vrml_text>, "texture coordinates"}, Format{".dnm", read_dnm, true},
+    Format{".srf", read_srf, true}, Format{".xml", nullptr}};
 
 const Format* find_format(const std::filesystem::path& path) {
     const std::string ending = extension_of(path);
@@ -127,9 +157,54 @@ const Format* find_format(const std::filesystem::path& path) {
     return found == formats.end() ? nullptr : found;
 }
 
+/// What files of other kinds begin with.
+struct FileStart {
+    std::string_view bytes;
+    std::string_view kind;
+};
+
+constexpr std::array file_starts{FileStart{"PSSD", "a scenery file of X-Plane"}, FileStart{"\x89PNG", "a PNG picture"},
+    FileStart{"\xff\xd8\xff", "a JPEG picture"}, FileStart{"PK\x03\x04", "a zip archive: unpack it first"},
+    FileStart{"\x1f\x8b", "a gzip file: unpack it first"}, FileStart{"7z\xbc\xaf", "a 7-Zip archive: unpack it first"},
+    FileStart{"Rar!", "a RAR archive: unpack it first"}, FileStart{"SQLite", "a database"},
+    FileStart{"%PDF", "a PDF document"}, FileStart{"PXR-USDC", "a USD scene: Blender writes it as glTF"},
+    FileStart{"#usda", "a USD scene: Blender writes it as glTF"},
+    FileStart{"MDLX", "a model of Microsoft Flight Simulator: ModelConverterX writes it as glTF"},
+    FileStart{"ISO-10303-21", "a STEP file: FreeCAD writes it as OBJ"}};
+
+/// The end of X-Plane's and others' names, whose files have no start of their own.
+constexpr std::array file_endings{FileStart{".acf", "an aircraft of X-Plane, whose surfaces are in its objects (.obj)"},
+    FileStart{".mdl", "a model of Microsoft Flight Simulator: ModelConverterX writes it as glTF"},
+    FileStart{".max", "a scene of 3ds Max, which writes it as FBX"},
+    FileStart{".skp", "a model of SketchUp, which writes it as Collada"},
+    FileStart{".vsp3", "a model of OpenVSP, which writes it as STL or OBJ"},
+    FileStart{".edm", "a model of DCS, which no other program reads"},
+    FileStart{".stp", "a STEP file: FreeCAD writes it as OBJ"},
+    FileStart{".step", "a STEP file: FreeCAD writes it as OBJ"},
+    FileStart{".iges", "an IGES file: FreeCAD writes it as OBJ"},
+    FileStart{".igs", "an IGES file: FreeCAD writes it as OBJ"},
+    FileStart{".usdz", "a USD scene: Blender writes it as glTF"},
+    FileStart{".usd", "a USD scene: Blender writes it as glTF"}};
+
+/// What a file of another kind is, in words; empty where that is not known.
+std::string_view kind_of_file(const std::filesystem::path& path) {
+    std::error_code ignored;
+    if (!std::filesystem::is_regular_file(path, ignored)) { return {}; }
+    const std::string start = start_of(path);
+    if (is_xplane_text(start)) { return "an X-Plane object, whose name ends in .obj"; }
+    const auto* const by_start = std::ranges::find_if(
+        file_starts, [&](const FileStart& one) { return std::string_view(start).starts_with(one.bytes); });
+    if (by_start != file_starts.end()) { return by_start->kind; }
+    const auto* const by_ending = std::ranges::find(file_endings, extension_of(path), &FileStart::bytes);
+    return by_ending == file_endings.end() ? std::string_view() : by_ending->kind;
+}
+
 const Format& format_of(const std::filesystem::path& path) {
     const Format* found = find_format(path);
     if (found == nullptr) {
+        if (const std::string_view kind = kind_of_file(path); !kind.empty()) {
+            throw_error_in(path, fmt::format("expected a mesh file, got {}", kind));
+        }
         std::string known;
         for (const Format& format : formats) { known += fmt::format("{}{}", known.empty() ? "" : ", ", format.ending); }
         const std::string ending = printable(path.extension().string());

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "models/meshfile/mesh_parts.h"
+#include "models/polygons/aircraft_shape.h"
 #include "models/polygons/file_axes.h"
 #include "models/triangle_mesh.h"
 
@@ -17,10 +18,11 @@ namespace octant::models::meshfile {
 
 /// Reads a triangle mesh. The file's extension selects the format: .obj (with vertex colours), .ply (ASCII, binary of
 /// both byte orders), .stl (ASCII, binary), .off (ASCII, read only), .gltf and .glb, .ac (AC3D), .wrl (VRML 2.0
-/// IndexedFaceSet), .xml (a FlightGear model with its sub-models, or an aircraft's -set.xml, which names its model;
-/// read only). Polygons are cut into triangles; repair::repaired makes further changes. Scene nodes are placed, and
-/// mirrored nodes get their orientation back. Axes and units are those of the file. Integer colours are scaled to 0..1.
-/// Colours are display values (models/material.h); the linear colours of glTF are converted.
+/// IndexedFaceSet), .dnm and .srf (YSFlight, read only), X-Plane's OBJ8 in .obj files, .xml (a FlightGear model with
+/// its sub-models, or an aircraft's -set.xml, which names its model; read only). Polygons are cut into triangles;
+/// repair::repaired makes further changes. Scene nodes are placed, and mirrored nodes get their orientation back. Axes
+/// and units are those of the file. Integer colours are scaled to 0..1. Colours are display values (models/material.h);
+/// the linear colours of glTF are converted.
 ///
 /// Texture coordinates and picture names are read from .obj, .ac, .wrl and glTF files, texture coordinates alone from
 /// .ply and .off, pictures only if `options` ask for them. Ignored: lines, points, attributes that TriangleMesh does
@@ -58,8 +60,14 @@ struct RotatingModel {
     TransparentSurfaces clear;
 };
 
-/// As read_mesh, for the same files; only FlightGear's models have parts. Throws Error.
+/// As read_mesh, for the same files; only FlightGear's and YSFlight's models have parts. Throws Error.
 RotatingModel read_rotating_model(const std::filesystem::path& path, const ReadOptions& options);
+
+/// A YSFlight model (.dnm) with its propellers and rotors. Throws Error.
+RotatingModel read_rotating_dnm(const std::filesystem::path& path, const ReadOptions& options);
+
+/// Whether a file is an X-Plane object (OBJ8), by its first lines; false where it cannot be read.
+bool is_xplane_object(const std::filesystem::path& path);
 
 /// Writes a mesh in the format of the extension, completely or not at all: .obj with an .mtl file, binary .ply and
 /// .stl, .gltf with embedded data, .glb, .ac, .wrl. read_mesh returns the same mesh within the limits of the format:
@@ -89,13 +97,14 @@ bool is_mesh_file(const std::filesystem::path& path);
 /// Whether write_mesh knows the extension.
 bool is_writable_mesh_file(const std::filesystem::path& path);
 
-/// The axes of aircraft in a file format, by the file's extension: AC3D x back, y up, z left (as FlightGear uses it),
-/// FlightGear models (.xml) x back, y right, z up, glTF x left, y up, z forward (its specification). Nothing for
-/// formats without a convention.
+/// The axes of aircraft in a file format that prescribes them, by the file's extension: AC3D x back, y up, z left (as
+/// FlightGear uses it), YSFlight x left, y up, z forward, X-Plane objects x right, y up, z back, FlightGear models
+/// (.xml) x back, y right, z up. Nothing for other formats.
 std::optional<polygons::FileAxes> axes_of_format(const std::filesystem::path& file);
 
-/// The usual axes of formats that prescribe only the upward axis: OpenFlight and OpenSceneGraph x right, y forward, z
-/// up. Nothing for others.
-std::optional<polygons::FileAxes> default_axes_of_format(const std::filesystem::path& file);
+/// What is usual in a format that leaves the nose to its users: glTF has y up, and z forward in its specification
+/// alone; Assimp hands over files with y up; OpenFlight and OpenSceneGraph have z up, mostly y forward; others have y
+/// or z up.
+std::vector<polygons::AxesHint> axes_hints_of_format(const std::filesystem::path& file);
 
 } // namespace octant::models::meshfile

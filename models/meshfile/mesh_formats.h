@@ -23,7 +23,15 @@ MeshBuilder read_stl(const std::filesystem::path& path, const ReadOptions& optio
 MeshBuilder read_off(const std::filesystem::path& path, const ReadOptions& options);
 MeshBuilder read_gltf(const std::filesystem::path& path, const ReadOptions& options);
 MeshBuilder read_ac3d(const std::filesystem::path& path, const ReadOptions& options);
+MeshBuilder read_srf(const std::filesystem::path& path, const ReadOptions& options);
+MeshBuilder read_dnm(const std::filesystem::path& path, const ReadOptions& options);
 MeshBuilder read_vrml(const std::filesystem::path& path, const ReadOptions& options);
+
+/// Whether a text begins as an X-Plane object does.
+bool is_xplane_text(std::string_view text);
+
+/// An X-Plane object (OBJ8) with this text. Throws Error.
+MeshBuilder read_xplane(const std::filesystem::path& path, std::string_view text, const ReadOptions& options);
 
 /// A FlightGear model with its rotating and transparent parts in one mesh. Throws Error.
 TriangleMesh read_flightgear_model(const std::filesystem::path& path, const ReadOptions& options);

@@ -43,6 +43,8 @@ private:
             take_texture_coordinates();
         } else if (keyword == "f") {
             take_polygon(text_.words());
+        } else if (keyword == "s") {
+            take_smoothing_group();
         } else if (keyword == "usemtl") {
             material_name_ = std::string(text_.rest_of_line());
             material_ = invalid_index;
@@ -50,6 +52,15 @@ private:
         } else if (keyword == "mtllib") {
             take_material_files(text_.words());
         }
+    }
+
+    /// s N, s off or s 0; `s on`, which some programs write, is one group.
+    void take_smoothing_group() {
+        const std::string_view word = text_.word_or_end();
+        const auto number = whole_number(word);
+        const bool is_flat = word == "off" || number == 0L;
+        const auto group = static_cast<std::uint32_t>(number.value_or(1) & 0x7fffffffL);
+        mesh_.set_smoothing({is_flat ? Smoothing::flat : Smoothing::flat + 1 + group});
     }
 
     double number(std::string_view word) const {
@@ -212,7 +223,7 @@ private:
 
 MeshBuilder read_obj(const std::filesystem::path& path, const ReadOptions& options) {
     const std::string text = read_text_file(path, largest_obj_bytes);
-    return ObjMeshReading(path, text, options).read();
+    return is_xplane_text(text) ? read_xplane(path, text, options) : ObjMeshReading(path, text, options).read();
 }
 
 namespace {

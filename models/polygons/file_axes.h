@@ -1,11 +1,8 @@
 #pragma once
 
-#include "models/triangle_mesh.h"
-
 #include <glm/vec3.hpp>
 
 #include <array>
-#include <optional>
 #include <string>
 #include <string_view>
 
@@ -35,9 +32,7 @@ private:
     std::array<glm::dvec3, 3> axes_{glm::dvec3(0, 1, 0), glm::dvec3(0, 0, -1), glm::dvec3(-1, 0, 0)};
 };
 
-/// Guesses the axes of an aircraft's mesh from its shape: an aircraft is symmetric left to right, longer than high, and
-/// has its fin at the tail. Nothing where the shape is ambiguous. Time is linear in the number of triangles, plus a
-/// grid of at most 64 cells a side.
-std::optional<FileAxes> guess_axes(const TriangleMesh& mesh);
+/// The same axes with the nose at the other end: turned half round about the upward axis.
+FileAxes nose_at_other_end(const FileAxes& axes);
 
 } // namespace octant::models::polygons

@@ -170,6 +170,7 @@ public:
         const std::vector<Polygon> polygons = std::exchange(model_.polygons, {});
         const CornerVertices corner_vertices = std::exchange(model_.corner_vertices, {});
         all_places_ = std::exchange(model_.corner_texture_coordinates, {});
+        const std::vector<glm::vec3> corner_normals = std::exchange(model_.corner_normals, {});
         std::vector<std::uint32_t> parents;
         for (std::size_t i = 0; i < polygons.size(); ++i) {
             const auto corners = std::span(corner_vertices).subspan(polygons[i].first_corner, polygons[i].corner_count);
@@ -177,6 +178,11 @@ public:
             first_corner_ = polygons[i].first_corner;
             for (const CornerVertices& piece : pieces_of(corners, lines_[i])) {
                 add(polygons[i], piece);
+                for (std::size_t k = 0; k < piece.size() && !corner_normals.empty(); ++k) {
+                    const auto at = std::ranges::find(corners, piece[k]) - corners.begin();
+                    model_.corner_normals.push_back(
+                        corner_normals[polygons[i].first_corner + static_cast<std::size_t>(at)]);
+                }
                 parents.push_back(static_cast<std::uint32_t>(i));
             }
         }
@@ -300,9 +306,9 @@ void triangulate_faulty_polygons(PolygonModel& model, const std::filesystem::pat
 constexpr std::size_t largest_file_bytes = std::size_t{256} << 20U;
 /// All other keywords of the OBJ specification: lines and points, free-form curves and surfaces, display and rendering
 /// attributes, calls.
-constexpr std::array<std::string_view, 33> ignored_keywords{"s", "l", "p", "vt", "vn", "vp", "mg", "bevel", "c_interp",
-    "d_interp", "lod", "maplib", "usemap", "shadow_obj", "trace_obj", "ctech", "stech", "cstype", "deg", "bmat", "step",
-    "curv", "curv2", "surf", "parm", "trim", "hole", "scrv", "sp", "end", "con", "call", "csh"};
+constexpr std::array<std::string_view, 31> ignored_keywords{"l", "p", "vt", "vp", "mg", "bevel", "c_interp", "d_interp",
+    "lod", "maplib", "usemap", "shadow_obj", "trace_obj", "ctech", "stech", "cstype", "deg", "bmat", "step", "curv",
+    "curv2", "surf", "parm", "trim", "hole", "scrv", "sp", "end", "con", "call", "csh"};
 
 /// What version 3.0 of the specification lists as superseded: patches and curves.
 constexpr std::array<std::string_view, 5> old_keywords{"bsp", "bzp", "cdc", "cdp", "res"};
@@ -346,6 +352,7 @@ public:
         if (model_.polygons.empty()) { throw_error_in(path_, "expected at least one polygon (f), got none"); }
         resolve_materials();
         drop_unused_places();
+        finish_normals();
         triangulate_faulty_polygons(model_, path_, polygon_lines_);
         model_.parts = parts_.names();
         resolve_pivots();
@@ -367,6 +374,12 @@ private:
             const double u = finite_number(text_.word_or_end()).value_or(0.0);
             const double v = finite_number(text_.word_or_end()).value_or(0.0);
             places_.emplace_back(static_cast<float>(u), static_cast<float>(v));
+        } else if (keyword == "vn") {
+            take_normal();
+        } else if (keyword == "s") {
+            const std::string_view word = text_.word_or_end();
+            const auto number = whole_number(word);
+            smoothing_group_ = word == "off" || number == 0L ? flat_group : std::max(number.value_or(1), 1L);
         } else if (keyword == "g" || keyword == "o") {
             const std::string_view name = text_.rest_of_line();
             part_ = name.empty() ? "default" : std::string(name);
@@ -442,6 +455,64 @@ private:
         if (!is_any_left) { model_.corner_texture_coordinates.clear(); }
     }
 
+    /// vn x y z; what is no direction counts as none.
+    void take_normal() {
+        glm::dvec3 normal(0.0);
+        for (int k = 0; k < 3; ++k) { normal[k] = finite_number(text_.word_or_end()).value_or(0.0); }
+        const double length = glm::length(normal);
+        const bool is_good = length > 0.0 && std::isfinite(length);
+        normals_.push_back(is_good ? glm::vec3(axes_.body_from_file(normal / length)) : glm::vec3(0.0F));
+    }
+
+    /// Of a corner written as 7//3 or 7/1/3; zero where it has none that is there.
+    glm::vec3 normal_of_corner(std::string_view corner) const {
+        const auto fields = split_fields(corner, '/');
+        const auto index = fields.size() < 3 ? std::nullopt : whole_number(fields[2]);
+        const long count = static_cast<long>(normals_.size());
+        if (!index || *index == 0 || *index > count || *index < -count) { return glm::vec3(0.0F); }
+        return normals_[static_cast<std::size_t>(*index > 0 ? *index - 1 : count + *index)];
+    }
+
+    /// Along a polygon's normal, twice the area long.
+    glm::dvec3 area_vector_of(std::span<const std::uint32_t> corners) const {
+        glm::dvec3 sum(0.0);
+        for (std::size_t k = 0; k < corners.size(); ++k) {
+            const glm::dvec3& first_m = model_.vertices_m[corners[0]];
+            sum += glm::cross(model_.vertices_m[corners[k]] - first_m,
+                model_.vertices_m[corners[(k + 1) % corners.size()]] - first_m);
+        }
+        return sum;
+    }
+
+    /// Gives corners without a normal that of their polygon where it is flat, and the mean of the polygons of their
+    /// smoothing group where it has one.
+    void finish_normals() {
+        std::map<std::pair<long, std::uint32_t>, glm::dvec3> sums; // by group and vertex
+        const auto each_corner = [&](const auto& visit) {
+            for (std::size_t i = 0; i < model_.polygons.size(); ++i) {
+                const Polygon& polygon = model_.polygons[i];
+                if (smoothing_groups_[i] == no_group) { continue; }
+                const glm::dvec3 own = area_vector_of(model_.corners(i));
+                for (std::uint32_t corner = polygon.first_corner; corner < polygon.first_corner + polygon.corner_count;
+                     ++corner) {
+                    visit(smoothing_groups_[i], model_.corner_vertices[corner], own, model_.corner_normals[corner]);
+                }
+            }
+        };
+        each_corner([&](long group, std::uint32_t vertex, const glm::dvec3& own, const glm::vec3&) {
+            if (group != flat_group) { sums[{group, vertex}] += own; }
+        });
+        each_corner([&](long group, std::uint32_t vertex, const glm::dvec3& own, glm::vec3& normal) {
+            if (normal != glm::vec3(0.0F)) { return; }
+            const glm::dvec3 sum = group == flat_group ? own : sums.at({group, vertex});
+            const glm::dvec3 along = glm::length(sum) > 0.0 ? sum : own;
+            if (glm::length(along) > 0.0) { normal = glm::vec3(glm::normalize(along)); }
+        });
+        if (std::ranges::all_of(model_.corner_normals, [](const glm::vec3& one) { return one == glm::vec3(0.0F); })) {
+            model_.corner_normals.clear();
+        }
+    }
+
     void take_polygon() {
         const std::vector<std::string_view>& words = text_.words();
         if (words.size() < 3) { text_.refuse("at least three corners", std::to_string(words.size())); }
@@ -459,7 +530,9 @@ private:
         for (const std::string_view corner : words) {
             model_.corner_vertices.push_back(vertex_of(corner));
             if (reads_textures_) { model_.corner_texture_coordinates.push_back(place_of(corner)); }
+            model_.corner_normals.push_back(normal_of_corner(corner));
         }
+        smoothing_groups_.push_back(smoothing_group_);
         model_.polygons.push_back(polygon);
         polygon_lines_.push_back(text_.line_number());
     }
@@ -554,6 +627,11 @@ private:
     std::string part_ = "default";
     std::string material_ = "default";
     int material_line_ = 0;
+    static constexpr long no_group = -1;   ///< the file does not say how a polygon is shaded
+    static constexpr long flat_group = -2; ///< s off
+    long smoothing_group_ = no_group;
+    std::vector<long> smoothing_groups_; ///< one for each polygon
+    std::vector<glm::vec3> normals_;     ///< body axes; zero: none
     std::map<std::string, glm::vec3> colours_;
     std::map<std::string, MtlPicture> pictures_;
     bool reads_textures_ = false;

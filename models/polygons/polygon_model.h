@@ -42,6 +42,9 @@ struct PolygonModel {
     /// numbers (NaN) at all corners of a polygon that has none. Pieces that painting orders cut have none either: they
     /// take them from the whole polygons (visuals/shading).
     std::vector<glm::vec2> corner_texture_coordinates;
+    /// One for each of corner_vertices, or none: unit normals that the file gives; zero where it gives none. Pieces
+    /// that painting orders cut have none: they take them from the whole polygons (visuals/shading).
+    std::vector<glm::vec3> corner_normals;
     std::vector<Polygon> polygons;   ///< in file order
     std::vector<Material> materials; ///< at least one
     std::vector<std::string> parts;  ///< OBJ groups in file order, at least one

@@ -8,9 +8,11 @@
 #include "sim/base/text_file.h"
 #include "ui/base/json_value.h"
 #include "ui/base/progress.h"
+#include "ui/command_line/setting_option.h"
 #include "ui/commands/commands.h"
 #include "ui/report/png_file.h"
-#include "ui/world/mesh_aircraft.h"
+#include "ui/settings/setting_rows.h"
+#include "ui/world/aircraft_frame.h"
 #include "ui/world/mesh_loader.h"
 
 #include <glm/geometric.hpp>
@@ -177,7 +179,7 @@ report::Picture three_views(const models::TriangleMesh& body, int pane_width_px,
 
 struct ModelInfoOptions : base::OutputOptions {
     std::string file;
-    std::string axes = "auto";
+    world::AircraftFrameSettings frame;
     std::string picture;
 };
 
@@ -191,20 +193,11 @@ void turn_into_body(models::TriangleMesh& mesh, const models::polygons::FileAxes
     for (glm::dvec3& vertex_m : mesh.vertices_m) { vertex_m = axes.body_from_file(vertex_m); }
 }
 
-/// Which unit of length an aircraft of this length was probably modelled in.
-std::string scale_in_words(double length) {
-    constexpr double min_m = 2.0;
-    constexpr double max_m = 90.0;
-    if (length >= min_m && length <= max_m) { return "metres"; }
-    constexpr double m_per_cm = 0.01;
-    constexpr double m_per_mm = 0.001;
-    if (length * m_per_cm >= min_m && length * m_per_cm <= max_m) {
-        return "metres as read; centimetres by the length of an aircraft";
-    }
-    if (length * m_per_mm >= min_m && length * m_per_mm <= max_m) {
-        return "metres as read; millimetres by the length of an aircraft";
-    }
-    return "metres as read; no aircraft is so long";
+/// Which unit of length an aircraft was probably modelled in.
+std::string scale_in_words(const glm::dvec3& extent_m) {
+    const std::string unit = world::likely_unit(std::max({extent_m.x, extent_m.y, extent_m.z}));
+    if (unit == "metres") { return unit; }
+    return unit.empty() ? "metres as read; no aircraft is so long" : fmt::format("metres as read; likely {}", unit);
 }
 
 void add_materials(base::JsonValue& results, const models::TriangleMesh& mesh) {
@@ -271,11 +264,12 @@ void add_surface(base::JsonValue& results, const models::TriangleMesh& mesh) {
 }
 
 void show_model_info(const ModelInfoOptions& options) {
-    world::check_axes(options.axes);
+    world::check_axes(options.frame.axes);
     if (!options.picture.empty()) { check_can_write(options.picture); }
     const auto textures = std::make_shared<models::meshfile::TextureStore>();
     models::TriangleMesh mesh = read_any_mesh(options.file, textures);
-    const world::AircraftAxes axes = world::aircraft_axes(options.axes, options.file, mesh);
+    const world::AircraftAxes axes = world::aircraft_axes(options.frame.axes, options.file, mesh);
+    world::scale_mesh(mesh, options.frame.scale);
     turn_into_body(mesh, axes.axes);
     const models::BoundingBox bounds = models::bounds_of(mesh);
     const glm::dvec3 extent_m = bounds.max_m - bounds.min_m;
@@ -284,13 +278,19 @@ void show_model_info(const ModelInfoOptions& options) {
     results["length_m"] = extent_m.x;
     results["span_m"] = extent_m.y;
     results["height_m"] = extent_m.z;
-    results["scale"] = scale_in_words(extent_m.x);
+    results["scale"] = scale_in_words(extent_m);
     results["axes"] = axes.axes.text();
     results["axes_are"] = world::axes_text(axes);
     add_surface(results, mesh);
     add_materials(results, mesh);
     add_pictures(results, mesh, *textures);
-    for (const std::string& note : textures->notes()) { base::print_note(options.quiet, "note: " + note); }
+    for (const std::string& note : textures->notes()) { mesh.notes.push_back(note); }
+    for (const auto& note :
+        {world::axes_note(axes, options.file), world::size_note(extent_m, options.frame.scale, options.file)}) {
+        if (note) { mesh.notes.push_back(*note); }
+    }
+    results["notes"] = base::JsonValue::list({});
+    for (const std::string& note : mesh.notes) { results["notes"].push_back(note); }
     for (const std::string& note : mesh.notes) { base::print_note(options.quiet, "note: " + note); }
     if (!options.picture.empty()) {
         constexpr int pane_px = 400;
@@ -305,19 +305,22 @@ Command model_info_command() {
     auto options = std::make_shared<ModelInfoOptions>();
     return {.name = "info",
         .summary = "Shows size, axes, surface defects and materials of a mesh, and draws three views of it",
-        .options = with_output_options(*options,
-            {required(text_option("file", "FILE",
-                 "a mesh (.obj, .ply, .stl, .gltf, .glb, .ac, .wrl, .chain) or a built-in name", options->file)),
-                text_option("--picture", "OUT.png",
-                    "write a picture with views from the left, above and ahead; the nose points left",
-                    options->picture),
-                text_option("--axes", "X,Y,Z|auto",
-                    "directions of the file's x, y and z axes: right, left, up, down, forward, back", options->axes)}),
+        .options = with_output_options(
+            *options, {required(text_option("file", "FILE",
+                           "a mesh (.obj, .ply, .stl, .gltf, .glb, .ac, .wrl, .dnm, .srf, .chain) or a built-in name",
+                           options->file)),
+                          text_option("--picture", "OUT.png",
+                              "write a picture with views from the left, above and ahead; the nose points left",
+                              options->picture),
+                          text_option("--axes", "X,Y,Z|auto",
+                              "directions of the file's x, y and z axes: right, left, up, down, forward, back",
+                              options->frame.axes),
+                          value_option(settings::aircraft_scale_info, options->frame.scale)}),
         .footer = "Keys: file, length_m, span_m, height_m, scale, axes, axes_are, faces and "
                   "vertices as read,\n  shells, closed and defects as repaired, materials "
                   "(red green blue) and how often, vertex_colours,\n  pictures that lie on it, emissive_pictures, "
                   "picture_bytes "
-                  "in memory with mip levels, picture.\n"
+                  "in memory with mip levels, notes, picture.\n"
                   "Example:\n  octant model info f15 --picture f15.png",
         .run = [options] { show_model_info(*options); }};
 }

@@ -3,6 +3,8 @@
 #include "sim/base/text_file.h"
 #include "ui/reader/library_readers.h"
 
+#include <glm/mat3x3.hpp>
+
 #include <algorithm>
 #include <assimp/Importer.hpp>
 #include <assimp/postprocess.h>
@@ -20,6 +22,7 @@ namespace octant::ui::reader {
 namespace {
 
 using models::invalid_index;
+using models::meshfile::AffineTransform;
 using models::meshfile::CornerIndices;
 using models::meshfile::MeshBuilder;
 using models::meshfile::PolygonPicture;
@@ -108,16 +111,45 @@ std::vector<MaterialSurface> surfaces_of(const aiScene& scene, const std::filesy
 
 glm::dvec3 vector_of(const aiVector3D& from) { return {from.x, from.y, from.z}; }
 
-void add_mesh(const aiMesh& from, const MaterialSurface& surface, MeshBuilder& mesh) {
+/// A number that a file states about itself; nothing where there is none.
+std::optional<double> stated(const aiScene& scene, const char* key) {
+    if (scene.mMetaData == nullptr) { return std::nullopt; }
+    double real = 0.0;
+    float single = 0.0F;
+    int whole = 0;
+    if (scene.mMetaData->Get(key, real)) { return real; }
+    if (scene.mMetaData->Get(key, single)) { return static_cast<double>(single); }
+    if (scene.mMetaData->Get(key, whole)) { return static_cast<double>(whole); }
+    return std::nullopt;
+}
+
+/// From the unit and the upward axis that an FBX file states to metres with y up. Assimp applies those of Collada
+/// files, and other formats state none.
+AffineTransform placement_of(const aiScene& scene) {
+    constexpr double m_per_cm = 0.01;
+    constexpr double largest = 1e9;
+    const double scale = m_per_cm * stated(scene, "UnitScaleFactor").value_or(1.0 / m_per_cm);
+    AffineTransform placement;
+    const double up = stated(scene, "UpAxis").value_or(1.0);
+    if (up == 2.0) { placement.turn = glm::dmat3(1, 0, 0, 0, 0, -1, 0, 1, 0); }
+    if (up == 0.0) { placement.turn = glm::dmat3(0, 1, 0, -1, 0, 0, 0, 0, 1); }
+    if (stated(scene, "UpAxisSign").value_or(1.0) < 0.0) { // half round about x
+        placement.turn = glm::dmat3(1, 0, 0, 0, -1, 0, 0, 0, -1) * placement.turn;
+    }
+    if (scale > 1.0 / largest && scale < largest) { placement.turn *= scale; }
+    return placement;
+}
+
+void add_mesh(const aiMesh& from, const MaterialSurface& surface, const AffineTransform& placement, MeshBuilder& mesh) {
     const auto first = static_cast<std::uint32_t>(mesh.vertex_count());
     const auto first_normal = static_cast<std::uint32_t>(mesh.normal_count());
     for (unsigned v = 0; v < from.mNumVertices; ++v) {
-        const glm::dvec3 place_m = vector_of(from.mVertices[v]);
+        const glm::dvec3 place_m = placement.turn * vector_of(from.mVertices[v]);
         if (!(std::abs(place_m.x) + std::abs(place_m.y) + std::abs(place_m.z) < models::meshfile::max_coordinate)) {
             throw Error("expected finite places, got others");
         }
         mesh.add_vertex(place_m);
-        if (from.HasNormals()) { mesh.add_normal(vector_of(from.mNormals[v])); }
+        if (from.HasNormals()) { mesh.add_normal(placement.turn * vector_of(from.mNormals[v])); }
     }
     mesh.set_two_sided(surface.two_sided);
     std::vector<CornerIndices> corners;
@@ -150,9 +182,11 @@ void read_by_assimp(const std::filesystem::path& file, MeshBuilder& mesh) {
         throw_error_in(file, fmt::format("expected a mesh that Assimp can read, got '{}'", importer.GetErrorString()));
     }
     const std::vector<MaterialSurface> surfaces = surfaces_of(*scene, file, mesh);
+    const AffineTransform placement = placement_of(*scene);
     for (unsigned i = 0; i < scene->mNumMeshes; ++i) {
         const aiMesh& from = *scene->mMeshes[i];
-        add_mesh(from, from.mMaterialIndex < surfaces.size() ? surfaces[from.mMaterialIndex] : MaterialSurface(), mesh);
+        add_mesh(from, from.mMaterialIndex < surfaces.size() ? surfaces[from.mMaterialIndex] : MaterialSurface(),
+            placement, mesh);
     }
 }
 

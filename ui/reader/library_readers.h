@@ -10,11 +10,14 @@ namespace octant::ui::reader {
 // materials, normals and pictures. Readers run in a separate process, because a library may crash. They throw Error if
 // the library refuses the file.
 
-/// By Assimp: FBX, Collada, 3DS, LightWave, DirectX and others.
+/// By Assimp: FBX, Collada, 3DS, LightWave, DirectX and others; y up, in metres where the file states its unit.
 void read_by_assimp(const std::filesystem::path& file, models::meshfile::MeshBuilder& mesh);
 
 /// By OpenSceneGraph: OpenFlight and its own formats. Reads the finest level of detail and the active children of
 /// switches.
 void read_by_osg(const std::filesystem::path& file, models::meshfile::MeshBuilder& mesh);
+
+/// Writes a glTF file whose meshes Draco has packed as a plain .glb file. Throws Error.
+void unpack_draco(const std::filesystem::path& file, const std::filesystem::path& out);
 
 } // namespace octant::ui::reader

@@ -1,6 +1,6 @@
 // octant-read-mesh LIBRARY PICTURES BACKS IN OUT.obj: reads a mesh by a library and writes it as OBJ, which holds all
-// of it. PICTURES is "textures", "pictures" or "-", BACKS "backs" or "-". It is a separate program because a file may
-// make the library crash, hang or use all memory.
+// of it; with LIBRARY "draco" writes a glTF file unpacked, as OUT.glb. PICTURES is "textures", "pictures" or "-", BACKS
+// "backs" or "-". It is a separate program because a file may make the library crash, hang or use all memory.
 #include "models/meshfile/mesh_file.h"
 #include "models/meshfile/texture_store.h"
 #include "sim/base/error.h"
@@ -54,6 +54,15 @@ void limit() {
 
 void read(const std::string& library, const models::meshfile::ReadOptions& options, const std::string& in,
     const std::string& out) {
+    if (library == "draco") {
+#if defined(OCTANT_HAS_DRACO)
+        ui::reader::unpack_draco(in, out);
+        return;
+#else
+        throw Error(in + ": expected a build with Draco (libdraco-dev), got one without; gltf-transform or Blender "
+                         "write the file unpacked");
+#endif
+    }
     models::meshfile::MeshBuilder mesh(in, options);
     if (library == "assimp") {
         ui::reader::read_by_assimp(in, mesh);
@@ -67,7 +76,7 @@ void read(const std::string& library, const models::meshfile::ReadOptions& optio
 
 int main(int count, char** words) {
     if (count != 6) {
-        std::fputs("octant-read-mesh assimp|osg textures|pictures|- backs|- IN OUT.obj: started by octant\n", stderr);
+        std::fputs("octant-read-mesh assimp|osg|draco textures|pictures|- backs|- IN OUT.obj: started by octant\n", stderr);
         return exit_invalid_input;
     }
     limit();

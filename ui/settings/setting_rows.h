@@ -89,6 +89,8 @@ inline constexpr FieldInfo void_info{"void", "V,...|none",
     "[common ones are recognised and noted]"};
 inline constexpr FieldInfo band_info{
     "band", "N|NAME", "band with the heights, or terrarium or mapbox for heights encoded in RGB [detected and noted]"};
+inline constexpr FieldInfo aircraft_scale_info{
+    "aircraft-scale", "FACTOR", "metres a unit of length of aircraft files, such as 0.01 for centimetres", 1e-6, 1e6};
 
 /// The tables: one for each group, in the order of visit_rows.
 namespace rows {
@@ -127,9 +129,10 @@ inline constexpr std::tuple path{
         {.group = Path, .change = Flight}),
     setting<&RunSettings::path, &PathSettings::axes>(
         {"axes", "X,Y,Z|auto",
-            "directions of the axes of aircraft files, such as right,up,back; auto: as the format defines them (AC3D, "
-            "glTF), else guessed and noted"},
+            "directions of the axes of aircraft files, such as right,up,back; auto: as the format defines them "
+            "(AC3D), else guessed and noted"},
         {.group = Path, .change = Flight}),
+    setting<&RunSettings::path, &PathSettings::aircraft_scale>(aircraft_scale_info, {.group = Path, .change = Flight}),
     setting<&RunSettings::path, &PathSettings::terrain>(
         {"terrain", "NAME|FILE", "an imported ground or a map that GDAL reads (file, folder, archive)"},
         {.group = Path, .change = Flight, .known = built_in_terrains, .common = true}),

@@ -48,8 +48,10 @@ struct PathSettings {
     std::vector<std::string> tracks;
     /// How much later than recorded the aircraft of `tracks` fly.
     double track_offset_s = 0.0;
-    /// Directions of the axes of aircraft files, or "auto": by their formats, else by their shapes.
+    /// Directions of the axes of aircraft files, or "auto": by their formats and shapes.
     std::string axes = "auto";
+    /// Metres a unit of length of aircraft files.
+    double aircraft_scale = 1.0;
     std::string terrain = "hills";
     /// Sample spacing of terrain files that do not give one.
     double terrain_spacing_m = 30.0;

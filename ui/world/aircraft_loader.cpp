@@ -175,7 +175,7 @@ bool needs_mesh(const fs::path& materials, bool textures) {
 /// Whether an OBJ file is a polygon model, to be painted in order. Many faces that are nearly all triangles are the
 /// mesh of a surface, which refinement in flight serves better.
 bool is_polygon_model(const fs::path& file, bool textures) {
-    if (extension_of(file) != ".obj") { return false; }
+    if (extension_of(file) != ".obj" || models::meshfile::is_xplane_object(file)) { return false; }
     std::size_t triangles = 0;
     std::size_t others = 0;
     bool is_plain = true;
@@ -229,16 +229,24 @@ void take_pictures(PolygonModel& model, const fs::path& file, LoadContext& conte
     }
 }
 
-PolygonModel read_polygon_model(const fs::path& file, const std::string& axes, LoadContext& context) {
+PolygonModel read_polygon_model(const fs::path& file, const AircraftFrameSettings& frame, LoadContext& context) {
     if (file.parent_path() == base::data_folder() / "models") { return models::polygons::read_obj(file); }
     const bool textures = context.textures != nullptr;
     const models::polygons::FileAxes default_axes;
     PolygonModel model = models::polygons::read_obj(file, default_axes, textures);
     models::TriangleMesh shape = models::polygons::mesh_from_polygons(model);
     for (glm::dvec3& vertex_m : shape.vertices_m) { vertex_m = default_axes.file_from_body(vertex_m); }
-    const AircraftAxes shown = aircraft_axes(axes, file, shape);
-    note_axes(shown, file, context.notes);
+    const AircraftAxes shown = aircraft_axes(frame.axes, file, shape);
+    const models::BoundingBox bounds = models::bounds_of(shape);
+    for (const auto& note :
+        {axes_note(shown, file), size_note((bounds.max_m - bounds.min_m) * frame.scale, frame.scale, file)}) {
+        if (note) { context.notes.push_back(*note); }
+    }
     if (shown.axes.text() != default_axes.text()) { model = models::polygons::read_obj(file, shown.axes, textures); }
+    if (frame.scale != 1.0) {
+        for (glm::dvec3& vertex_m : model.vertices_m) { vertex_m *= frame.scale; }
+        for (models::polygons::Pivot& pivot : model.pivots) { pivot.point_m *= frame.scale; }
+    }
     if (textures) { take_pictures(model, file, context); }
     return model;
 }
@@ -261,13 +269,13 @@ planning::AircraftModel far_model(MeshAircraft& mesh, const AircraftSources& inp
 planning::AircraftModel load_model(const std::string& name, const AircraftSources& inputs, LoadContext& context) {
     const fs::path file = base::aircraft_file(name);
     if (is_polygon_model(file, context.textures != nullptr)) {
-        PolygonModel model = read_polygon_model(file, inputs.axes, context);
+        PolygonModel model = read_polygon_model(file, inputs.frame, context);
         context.note(model.notes);
         return finished_model(std::move(model), sim::find_aircraft_kind(name), inputs,
             {max_polygons_of_a_model, inputs.order_seconds}, context);
     }
     MeshAircraft mesh =
-        read_mesh_aircraft(file, inputs.axes, context.order_cache_folder.value_or(fs::path()), context.textures);
+        read_mesh_aircraft(file, inputs.frame, context.order_cache_folder.value_or(fs::path()), context.textures);
     context.note(mesh.notes);
     planning::AircraftModel model = far_model(mesh, inputs, context);
     add_meshes(model, mesh);
@@ -288,7 +296,7 @@ std::optional<planning::AircraftModel> load_cockpit(const std::string& aircraft)
 AircraftSources aircraft_sources(const settings::RunSettings& settings, std::vector<std::string> shapes) {
     AircraftSources inputs{.shapes = std::move(shapes),
         .files = {},
-        .axes = settings.path.axes,
+        .frame = {settings.path.axes, settings.path.aircraft_scale},
         .hidden_surface = settings.surface.hidden_surface,
         .order_method = settings.surface.order_method,
         .order_seconds = settings.surface.order_seconds,

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "ui/settings/settings.h"
+#include "ui/world/aircraft_frame.h"
 #include "ui/world/input_files.h"
 #include "visuals/overlay/instrument_panel.h"
 #include "visuals/planning/aircraft_model.h"
@@ -31,8 +32,7 @@ struct AircraftSources {
     std::vector<std::string> shapes;
     /// The files of the shapes and those that these name.
     std::vector<FileMtime> files;
-    /// As PathSettings has them.
-    std::string axes;
+    AircraftFrameSettings frame;
     visuals::scene::HiddenSurface hidden_surface{};
     visuals::draworder::OrderMethod order_method{};
     double order_seconds = 0.0;

@@ -2,16 +2,19 @@
 
 #include "models/measure/mesh_distance.h"
 #include "models/meshfile/mesh_file.h"
-#include "models/polygons/file_axes.h"
+#include "models/meshfile/smooth_normals.h"
 #include "models/repair/repair.h"
 #include "models/simplify/simplify.h"
 #include "sim/base/error.h"
 #include "sim/base/output_file.h"
 #include "sim/base/stopwatch.h"
+#include "ui/world/aircraft_frame.h"
 #include "ui/world/mesh_loader.h"
+#include "ui/world/unpacked_file.h"
 #include "visuals/refine/active_mesh.h"
 #include "visuals/refine/progressive_file.h"
 #include "visuals/refine/selective_refiner.h"
+#include "visuals/shading/vertex_normals.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -22,72 +25,6 @@
 #include <utility>
 
 namespace octant::ui::world {
-
-namespace fs = std::filesystem;
-using models::polygons::FileAxes;
-using AxesSource = AircraftAxes::AxesSource;
-
-namespace {
-
-constexpr std::string_view automatic = "auto";
-
-/// Which axis of a file a direction in body axes lies along, such as "-x".
-std::string axis_along(const FileAxes& axes, const glm::dvec3& in_body) {
-    constexpr std::string_view letters = "xyz";
-    const glm::dvec3 in_file = axes.file_from_body(in_body);
-    std::string text;
-    for (int k = 0; k < 3; ++k) {
-        if (in_file[k] != 0.0) {
-            text += in_file[k] > 0.0 ? '+' : '-';
-            text += letters[static_cast<std::size_t>(k)];
-        }
-    }
-    return text;
-}
-
-glm::dvec3 up_in_file(const FileAxes& axes) { return axes.file_from_body({0.0, 0.0, -1.0}); }
-
-std::string_view source_of(AxesSource source) {
-    switch (source) {
-    case AxesSource::Given:
-        return "as --axes says";
-    case AxesSource::Format:
-        return "as files of this format have it";
-    case AxesSource::Guess:
-        return "guessed from the shape";
-    case AxesSource::Default:
-        break;
-    }
-    return "taken for granted, the shape does not say";
-}
-
-} // namespace
-
-AircraftAxes aircraft_axes(const std::string& setting, const fs::path& file, const models::TriangleMesh& mesh) {
-    if (setting != automatic) { return {FileAxes::from_text(setting), AxesSource::Given}; }
-    if (const auto axes = models::meshfile::axes_of_format(file)) { return {*axes, AxesSource::Format}; }
-    const auto default_axes = models::meshfile::default_axes_of_format(file);
-    const auto guessed = models::polygons::guess_axes(mesh);
-    if (guessed && (!default_axes || up_in_file(*guessed) == up_in_file(*default_axes))) {
-        return {*guessed, AxesSource::Guess};
-    }
-    return {default_axes.value_or(FileAxes()), AxesSource::Default};
-}
-
-void check_axes(const std::string& setting) {
-    if (setting != automatic) { FileAxes::from_text(setting); }
-}
-
-std::string axes_text(const AircraftAxes& axes) {
-    return fmt::format("nose towards {}, up {}: {}", axis_along(axes.axes, {1.0, 0.0, 0.0}),
-        axis_along(axes.axes, {0.0, 0.0, -1.0}), source_of(axes.source));
-}
-
-void note_axes(const AircraftAxes& axes, const fs::path& file, std::vector<std::string>& notes) {
-    if (axes.source == AxesSource::Guess || axes.source == AxesSource::Default) {
-        notes.push_back(fmt::format("{}: {}; --axes to change", file.filename().string(), axes_text(axes)));
-    }
-}
 
 namespace fs = std::filesystem;
 namespace measure = models::measure;
@@ -163,17 +100,46 @@ double add_far_parts(std::span<const RotatingPart> parts, PolygonModel& polygons
 /// Few enough polygons for a painting order.
 constexpr std::size_t far_faces = 250;
 
+refine::PackedNormal turned_normal(const refine::PackedNormal& normal, const models::polygons::FileAxes& axes) {
+    return refine::packed(glm::vec3(axes.body_from_file(glm::dvec3(unpacked(normal)))));
+}
+
+/// In body axes, and as large as `scale` makes it.
 std::shared_ptr<const refine::ProgressiveMesh> turned(
-    const refine::ProgressiveMesh& mesh, const models::polygons::FileAxes& axes) {
+    const refine::ProgressiveMesh& mesh, const models::polygons::FileAxes& axes, double scale) {
     refine::ProgressiveMeshData parts = mesh.full_data();
+    if (scale != 1.0) {
+        parts.origin_m *= scale;
+        for (glm::vec3& position_m : parts.positions_m) { position_m *= static_cast<float>(scale); }
+        for (refine::VertexSplit& split : parts.splits) { split.error_m *= static_cast<float>(scale); }
+    }
     parts.origin_m = axes.body_from_file(parts.origin_m);
     for (glm::vec3& position_m : parts.positions_m) {
         position_m = glm::vec3(axes.body_from_file(glm::dvec3(position_m)));
     }
-    for (refine::PackedNormal& normal : parts.normals) {
-        normal = refine::packed(glm::vec3(axes.body_from_file(glm::dvec3(unpacked(normal)))));
-    }
+    for (refine::PackedNormal& normal : parts.normals) { normal = turned_normal(normal, axes); }
     return std::make_shared<const refine::ProgressiveMesh>(std::move(parts));
+}
+
+/// Normals at creases, in body axes.
+std::shared_ptr<const refine::MeshCreases> turned(
+    const std::shared_ptr<const refine::MeshCreases>& creases, const models::polygons::FileAxes& axes) {
+    if (!creases) { return nullptr; }
+    refine::MeshCreases turned = *creases;
+    for (refine::CornerNormals& normals : turned.corner_normals) {
+        for (refine::PackedNormal& normal : normals) { normal = turned_normal(normal, axes); }
+    }
+    return std::make_shared<const refine::MeshCreases>(std::move(turned));
+}
+
+/// Gives a mesh without normals those of a surface that is smooth but for edges sharper than the crease angle.
+void add_missing_normals(models::TriangleMesh& mesh) {
+    if (!mesh.corner_normals.empty()) { return; }
+    mesh.corner_normals.assign(
+        mesh.triangles.size(), {models::invalid_index, models::invalid_index, models::invalid_index});
+    constexpr meshfile::Smoothing smooth{
+        meshfile::Smoothing::flat + 1, static_cast<float>(visuals::shading::default_crease_rad)};
+    meshfile::add_smooth_normals(mesh, std::vector(mesh.triangles.size(), smooth));
 }
 
 /// The hierarchy's mesh after as many of its coarsest splits as far polygons allow.
@@ -195,44 +161,80 @@ models::TriangleMesh finest_mesh(const refine::ProgressiveMesh& hierarchy) {
     return mesh;
 }
 
-/// A hierarchy from its file, or made of a mesh. Turning parts and transparent surfaces go to `aircraft`. All in axes
-/// of the file.
-RefineMesh hierarchy_in(const fs::path& file, const fs::path& cache, std::shared_ptr<meshfile::TextureStore> textures,
-    MeshAircraft& aircraft) {
+/// All of a model as one mesh, for its axes and its size.
+models::TriangleMesh whole_of(const meshfile::RotatingModel& model) {
+    models::TriangleMesh whole = model.body;
+    for (const RotatingPart& part : model.parts) { meshfile::join_mesh(whole, part.mesh, {}); }
+    meshfile::join_mesh(whole, model.clear.mesh, {});
+    return whole;
+}
+
+/// What is flown of a mesh's file, in axes and unit of the file.
+struct FileHierarchy {
+    RefineMesh mesh;
+    AircraftAxes axes;
+    models::BoundingBox bounds;
+};
+
+/// A hierarchy from its file, or made of a mesh. Turning parts and transparent surfaces go to `aircraft`.
+FileHierarchy hierarchy_in(const fs::path& file, const AircraftFrameSettings& frame, const fs::path& cache,
+    std::shared_ptr<meshfile::TextureStore> textures, MeshAircraft& aircraft) {
     const RefineMeshOptions input{.file = file.string(), .base = 0, .quiet = true};
-    if (refine::is_progressive_file(file)) { return read_refine_mesh(input); }
+    FileHierarchy result;
+    if (refine::is_progressive_file(file)) {
+        result.mesh = read_refine_mesh(input);
+        const models::TriangleMesh whole = finest_mesh(*result.mesh.mesh);
+        result.axes = aircraft_axes(frame.axes, file, whole);
+        result.bounds = models::bounds_of(whole);
+        return result;
+    }
     const meshfile::ReadOptions options{.pictures = true, .textures = std::move(textures), .backs = true};
     meshfile::RotatingModel model;
     if (path_exists(file) && !is_library_file(file) && meshfile::is_mesh_file(file)) {
-        model = meshfile::read_rotating_model(file, options);
-        aircraft.turning = std::move(model.parts);
-        aircraft.clear = std::move(model.clear);
+        model = read_packed_model(file, options);
     } else {
         model.body = load_mesh(input.file, options);
     }
-    return cache.empty() ? make_refine_mesh(input, std::move(model.body))
-                         : cached_refine_mesh(cache, input, std::move(model.body));
+    const models::TriangleMesh whole = whole_of(model);
+    result.axes = aircraft_axes(frame.axes, file, whole);
+    result.bounds = models::bounds_of(whole);
+    aircraft.turning = std::move(model.parts);
+    aircraft.clear = std::move(model.clear);
+    add_missing_normals(model.body);
+    result.mesh = cache.empty() ? make_refine_mesh(input, std::move(model.body))
+                                : cached_refine_mesh(cache, input, std::move(model.body));
+    return result;
 }
 
-MeshAircraft from_hierarchy(const fs::path& file, const std::string& setting, const fs::path& cache,
+void note_frame(const AircraftAxes& axes, const models::BoundingBox& bounds, double scale, const fs::path& file,
+    std::vector<std::string>& notes) {
+    for (const auto& note : {axes_note(axes, file), size_note((bounds.max_m - bounds.min_m) * scale, scale, file)}) {
+        if (note) { notes.push_back(*note); }
+    }
+}
+
+MeshAircraft from_hierarchy(const fs::path& file, const AircraftFrameSettings& frame, const fs::path& cache,
     std::shared_ptr<meshfile::TextureStore> textures) {
     const Stopwatch watch;
     MeshAircraft aircraft;
-    RefineMesh input = hierarchy_in(file, cache, std::move(textures), aircraft);
-    const AircraftAxes axes = aircraft_axes(setting, file, finest_mesh(*input.mesh));
-    aircraft.notes = std::move(input.notes);
-    note_axes(axes, file, aircraft.notes);
-    aircraft.hierarchy = turned(*input.mesh, axes.axes); // its nodes keep their numbers
-    aircraft.textures = std::move(input.textures);
+    FileHierarchy input = hierarchy_in(file, frame, cache, std::move(textures), aircraft);
+    const models::polygons::FileAxes& axes = input.axes.axes;
+    aircraft.notes = std::move(input.mesh.notes);
+    note_frame(input.axes, input.bounds, frame.scale, file, aircraft.notes);
+    aircraft.hierarchy = turned(*input.mesh.mesh, axes, frame.scale); // its nodes keep their numbers
+    aircraft.creases = turned(input.mesh.creases, axes);
+    aircraft.textures = std::move(input.mesh.textures);
     const models::TriangleMesh far = far_mesh(aircraft.hierarchy);
     aircraft.polygons_error_m = max_distance_m(finest_mesh(*aircraft.hierarchy), far);
     aircraft.polygons = models::polygons::polygons_from_mesh(far);
     for (RotatingPart& part : aircraft.turning) {
-        rotate_mesh_to_body(part.mesh, axes.axes);
-        part.about.point_m = axes.axes.body_from_file(part.about.point_m);
-        part.about.direction = axes.axes.body_from_file(part.about.direction);
+        scale_mesh(part.mesh, frame.scale);
+        rotate_mesh_to_body(part.mesh, axes);
+        part.about.point_m = frame.scale * axes.body_from_file(part.about.point_m);
+        part.about.direction = axes.body_from_file(part.about.direction);
     }
-    rotate_mesh_to_body(aircraft.clear.mesh, axes.axes);
+    scale_mesh(aircraft.clear.mesh, frame.scale);
+    rotate_mesh_to_body(aircraft.clear.mesh, axes);
     // Transparent surfaces are opaque there: far away nothing is seen through them.
     aircraft.polygons_error_m = std::max({aircraft.polygons_error_m, add_far_parts(aircraft.turning, aircraft.polygons),
         append_far(aircraft.clear.mesh, far_faces_of_transparent, 0, aircraft.polygons)});
@@ -262,24 +264,28 @@ void take_textures(meshfile::LevelChain& chain, meshfile::TextureStore& textures
 }
 
 /// Levels with an error above that of the polygons are left out.
-MeshAircraft from_chain(
-    const fs::path& file, const std::string& setting, const std::shared_ptr<meshfile::TextureStore>& textures) {
+MeshAircraft from_chain(const fs::path& file, const AircraftFrameSettings& frame,
+    const std::shared_ptr<meshfile::TextureStore>& textures) {
     meshfile::LevelChain chain = meshfile::read_chain(file);
-    const AircraftAxes found = aircraft_axes(setting, file, chain.levels.front().mesh);
+    const AircraftAxes found = aircraft_axes(frame.axes, file, chain.levels.front().mesh);
     const models::polygons::FileAxes& axes = found.axes;
     MeshAircraft aircraft;
-    note_axes(found, file, aircraft.notes);
+    note_frame(found, models::bounds_of(chain.levels.front().mesh), frame.scale, file, aircraft.notes);
     if (textures) { take_textures(chain, *textures, aircraft.notes); }
     aircraft.polygons =
         chain.polygons ? std::move(*chain.polygons) : models::polygons::polygons_from_mesh(chain.levels.back().mesh);
-    aircraft.polygons_error_m = chain.polygons ? chain.polygons_error_m : chain.levels.back().error_m;
-    for (glm::dvec3& vertex_m : aircraft.polygons.vertices_m) { vertex_m = axes.body_from_file(vertex_m); }
+    aircraft.polygons_error_m = frame.scale * (chain.polygons ? chain.polygons_error_m : chain.levels.back().error_m);
+    for (glm::dvec3& vertex_m : aircraft.polygons.vertices_m) {
+        vertex_m = frame.scale * axes.body_from_file(vertex_m);
+    }
     for (models::polygons::Pivot& pivot : aircraft.polygons.pivots) {
-        pivot.point_m = axes.body_from_file(pivot.point_m);
+        pivot.point_m = frame.scale * axes.body_from_file(pivot.point_m);
         pivot.axis = axes.body_from_file(pivot.axis);
     }
     for (meshfile::ChainLevel& level : chain.levels) {
+        level.error_m *= frame.scale;
         if (level.error_m < aircraft.polygons_error_m) {
+            scale_mesh(level.mesh, frame.scale);
             rotate_mesh_to_body(level.mesh, axes);
             aircraft.levels.push_back(std::move(level));
         }
@@ -289,15 +295,16 @@ MeshAircraft from_chain(
 
 } // namespace
 
-MeshAircraft read_mesh_aircraft(const fs::path& file, const std::string& axes, const fs::path& cache,
+MeshAircraft read_mesh_aircraft(const fs::path& file, const AircraftFrameSettings& frame, const fs::path& cache,
     std::shared_ptr<meshfile::TextureStore> textures) {
-    return meshfile::is_chain_file(file) ? from_chain(file, axes, textures)
-                                         : from_hierarchy(file, axes, cache, std::move(textures));
+    return meshfile::is_chain_file(file) ? from_chain(file, frame, textures)
+                                         : from_hierarchy(file, frame, cache, std::move(textures));
 }
 
 void add_meshes(planning::AircraftModel& model, const MeshAircraft& aircraft) {
     if (aircraft.hierarchy) {
         planning::add_progressive(model, aircraft.hierarchy, aircraft.polygons_error_m, aircraft.textures);
+        model.creases = aircraft.creases;
         std::vector<planning::TurningPartMesh> parts;
         for (const RotatingPart& part : aircraft.turning) {
             parts.push_back({&part.mesh, static_cast<std::uint32_t>(parts.size())});

@@ -14,6 +14,7 @@
 #include "ui/base/progress.h"
 #include "ui/report/child_program.h"
 #include "ui/world/mesh_textures.h"
+#include "ui/world/unpacked_file.h"
 #include "visuals/refine/progressive_file.h"
 #include "visuals/refine/progressive_mesh.h"
 
@@ -72,13 +73,6 @@ const Library* library_of(const fs::path& file) {
     throw_error_in(file, words.starts_with("expected ")
                              ? words
                              : fmt::format("expected a mesh that {} can read; its reader: {}", library.name, words));
-}
-
-/// In the folder of this program; empty if it was not built.
-fs::path reader_program() {
-    std::error_code ignored;
-    const fs::path reader = fs::read_symlink("/proc/self/exe", ignored).parent_path() / "octant-read-mesh";
-    return fs::is_regular_file(reader, ignored) ? reader : fs::path();
 }
 
 } // namespace
@@ -143,7 +137,7 @@ models::TriangleMesh load_mesh(const std::string& name_or_file, const models::me
         }
     }
     return is_library_file(name_or_file) ? read_library_mesh(name_or_file, options)
-                                         : models::meshfile::read_mesh(name_or_file, options);
+                                         : read_packed_mesh(name_or_file, options);
 }
 
 namespace {
@@ -231,9 +225,11 @@ RefineMesh make_refine_mesh(const RefineMeshOptions& input, models::TriangleMesh
     options.length_share = 0.03;
     if (input.base > 0) { options.goal.vertices = input.base; }
     options.show_progress = [&](double share) { progress.show(static_cast<int>(share * steps)); };
+    const std::vector<refine::CornerNormals> normals = refine::creased_normals(repaired.mesh);
     NodePlaces places;
     std::tie(result.mesh, places) = hierarchy_of(std::move(repaired.mesh), options, result.notes);
     progress.finish();
+    result.creases = refine::mesh_creases(*result.mesh, normals);
     if (!places.first.empty()) {
         result.chart_materials = places.chart_materials;
         result.textures = mesh_textures(std::move(places), materials, result.mesh->node_count());
@@ -245,7 +241,7 @@ namespace {
 
 /// Raised whenever make_refine_mesh() gives any mesh another hierarchy, or its file another layout: what was cached
 /// before is then made anew.
-constexpr unsigned refine_mesh_cache_version = 4;
+constexpr unsigned refine_mesh_cache_version = 6;
 
 template <class Item>
 void add_list(Hash& hash, const std::vector<Item>& list) {
@@ -295,6 +291,10 @@ RefineMesh cached_refine_mesh(const fs::path& folder, const RefineMeshOptions& i
         prepared.repairs.resize(in.take_count(sizeof(std::uint64_t), "a number of repairs"));
         for (std::string& line : prepared.repairs) { line = in.take_text(); }
         prepared.mesh = std::make_shared<const refine::ProgressiveMesh>(refine::progressive_mesh(in.take_text(), file));
+        // In the order of the original faces, as creased_normals has them.
+        const auto normals = in.take_list<refine::CornerNormals>();
+        in.check(normals.empty() || normals.size() == prepared.mesh->face_count(), "normals for each face, or none");
+        prepared.creases = refine::mesh_creases(*prepared.mesh, normals);
         if (is_textured) {
             NodePlaces places;
             places.first = in.take_list<std::uint32_t>();
@@ -316,6 +316,11 @@ RefineMesh cached_refine_mesh(const fs::path& folder, const RefineMeshOptions& i
     out.put(std::uint64_t{made.repairs.size()});
     for (const std::string& line : made.repairs) { out.put_text(line); }
     out.put_text(refine::progressive_bytes(*made.mesh));
+    std::vector<refine::CornerNormals> normals(made.creases ? made.mesh->face_count() : 0);
+    for (std::uint32_t face = 0; face < normals.size(); ++face) {
+        normals[made.mesh->original_face(face)] = made.creases->corner_normals[face];
+    }
+    out.put_list(normals);
     if (made.textures) {
         out.put_list(made.textures->first);
         out.put_list(made.textures->places);

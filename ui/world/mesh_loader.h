@@ -3,6 +3,7 @@
 #include "models/meshfile/mesh_file.h"
 #include "models/meshfile/mesh_join.h"
 #include "models/triangle_mesh.h"
+#include "visuals/refine/mesh_creases.h"
 #include "visuals/refine/mesh_textures.h"
 #include "visuals/refine/progressive_mesh.h"
 
@@ -53,6 +54,8 @@ struct RefineMesh {
     std::shared_ptr<const visuals::refine::MeshTextures> textures;
     /// For each chart of `textures` its material in the mesh.
     std::vector<std::uint32_t> chart_materials;
+    /// Null where each vertex has one normal, and for a hierarchy from a file.
+    std::shared_ptr<const visuals::refine::MeshCreases> creases;
     std::vector<std::string> notes;
     /// Changes made by repair, a line each; also in the notes, after the name of the file.
     std::vector<std::string> repairs;

@@ -6,6 +6,7 @@
 #include "visuals/draworder/draw_order.h"
 #include "visuals/overlay/instrument_panel.h"
 #include "visuals/planning/bounding_box.h"
+#include "visuals/refine/mesh_creases.h"
 #include "visuals/refine/mesh_textures.h"
 #include "visuals/refine/progressive_mesh.h"
 #include "visuals/scene/camera_rig.h"
@@ -87,6 +88,8 @@ struct AircraftModel {
     scene::IndexRange transparent{};
     /// The coverage of the transparent surfaces, 0 to 1.
     float opacity = 1.0F;
+    /// Of the progressive mesh; null where each vertex has one normal.
+    std::shared_ptr<const refine::MeshCreases> creases = {};
 
     /// The number of indices of a polygon.
     std::uint32_t index_count_of(std::uint32_t polygon) const {

@@ -79,7 +79,8 @@ Fleet::Fleet(const Scene& scene, const scene::Settings& settings) : scene_(scene
     for (const PlacedAircraft& aircraft : placed_) {
         const auto& progressive = aircraft.near_model->progressive;
         refined_.push_back(progressive ? std::make_unique<RefinedAircraft>(progressive, refiner_options(settings),
-                                             settings.shading, aircraft.near_model->progressive_textures)
+                                             settings.shading, aircraft.near_model->progressive_textures,
+                                             aircraft.near_model->creases)
                                        : nullptr);
     }
     last_.resize(placed_.size());

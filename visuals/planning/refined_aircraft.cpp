@@ -43,10 +43,11 @@ std::uint32_t mean_colour(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
 
 RefinedAircraft::RefinedAircraft(std::shared_ptr<const refine::ProgressiveMesh> mesh,
     const refine::ViewRefinerOptions& options, const scene::ShadingSettings& shading,
-    std::shared_ptr<const refine::MeshTextures> textures)
+    std::shared_ptr<const refine::MeshTextures> textures, std::shared_ptr<const refine::MeshCreases> creases)
     : refiner_(std::move(mesh), options, textures),
       textures_(shading.show_model == scene::ModelDisplay::None ? std::move(textures) : nullptr),
-      selector_(shading_rule_of(shading)), shows_levels_(shading.show_model == scene::ModelDisplay::Levels) {}
+      creases_(std::move(creases)), selector_(shading_rule_of(shading)),
+      shows_levels_(shading.show_model == scene::ModelDisplay::Levels) {}
 
 refine::RefinedFrame RefinedAircraft::update(const glm::dmat4& body_to_eye_world, const FrameView& view, bool first) {
     const glm::dmat3 turn(body_to_eye_world); // a vector times it is turned back
@@ -193,12 +194,24 @@ void RefinedAircraft::write_flat(std::span<const std::uint32_t> corners) {
     vertices_.push_back(first);
 }
 
+/// A vertex of its own for a corner at a crease, with the normal that the face has there; else the vertex as it is.
+std::uint32_t RefinedAircraft::creased_vertex(
+    std::uint32_t vertex, std::uint32_t slot, std::uint32_t face, std::size_t corner) {
+    if (!creases_ || !creases_->is_creased[refiner_.front().node_at(slot)]) { return vertex; }
+    constexpr float same_cosine = 0.9986F;
+    const glm::vec3 normal = refine::unpacked(creases_->corner_normals[face].at(corner));
+    if (glm::dot(normal, vertices_[vertex].normal) > same_cosine) { return vertex; }
+    scene::ModelVertex own = vertices_[vertex];
+    own.normal = normal;
+    vertices_.push_back(own);
+    return static_cast<std::uint32_t>(vertices_.size() - 1);
+}
+
 void RefinedAircraft::write_indices() {
     const refine::SelectiveRefiner& front = refiner_.front();
     const auto shared = front.indices();
     const auto smooth = selector_.smooth();
     const std::vector<std::uint16_t>& charts = front.mesh().parts().face_materials;
-    const bool all_smooth = !choosing_ && !all_flat_;
     if (textures_) { add_chart_vertices(); }
     indices_.clear();
     for (std::size_t place = 0; 3 * place < shared.size(); ++place) {
@@ -206,14 +219,15 @@ void RefinedAircraft::write_indices() {
         if (slots[0] == slots[1]) {
             continue; // a place without a triangle
         }
-        const std::uint32_t chart = textures_ && !charts.empty() ? charts[front.face_at(place)] : 0;
+        const std::uint32_t face = front.face_at(place);
+        const std::uint32_t chart = textures_ && !charts.empty() ? charts[face] : 0;
         const std::array<std::uint32_t, 3> corners{
             corner_vertex(slots[0], chart), corner_vertex(slots[1], chart), corner_vertex(slots[2], chart)};
-        if (!all_smooth && (all_flat_ || smooth[place] == 0)) {
+        if (all_flat_ || (choosing_ && smooth[place] == 0)) {
             write_flat(corners);
-        } else {
-            indices_.insert(indices_.end(), corners.begin(), corners.end());
+            continue;
         }
+        for (std::size_t k = 0; k < 3; ++k) { indices_.push_back(creased_vertex(corners.at(k), slots[k], face, k)); }
     }
 }
 
@@ -222,12 +236,12 @@ scene::RefinedDraw RefinedAircraft::draw() {
     assert(!choosing_ || !front_changed_);
     if (drawn_changed_) {
         follow_front();
-        if (!all_smooth || textures_) { write_indices(); }
+        if (!all_smooth || textures_ || creases_) { write_indices(); }
     }
     drawn_changed_ = false;
     scene::RefinedDraw draw;
     draw.vertices = vertices_;
-    draw.indices = all_smooth && !textures_ ? refiner_.front().indices() : indices_;
+    draw.indices = all_smooth && !textures_ && !creases_ ? refiner_.front().indices() : indices_;
     return draw;
 }
 

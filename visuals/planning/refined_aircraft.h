@@ -1,6 +1,7 @@
 #pragma once
 
 #include "visuals/planning/frame_view.h"
+#include "visuals/refine/mesh_creases.h"
 #include "visuals/refine/mesh_textures.h"
 #include "visuals/refine/view_refiner.h"
 #include "visuals/scene/frame_plan.h"
@@ -25,9 +26,10 @@ shading::ShadingRuleSettings shading_rule_of(const scene::ShadingSettings& setti
 /// mesh that have changed since the last frame are computed again.
 class RefinedAircraft {
 public:
-    /// The hierarchy is in body axes. `textures`: the pictures on it; null: none.
+    /// The hierarchy is in body axes. `textures`: the pictures on it; `creases`: its edges; null: none.
     RefinedAircraft(std::shared_ptr<const refine::ProgressiveMesh> mesh, const refine::ViewRefinerOptions& options,
-        const scene::ShadingSettings& shading, std::shared_ptr<const refine::MeshTextures> textures = {});
+        const scene::ShadingSettings& shading, std::shared_ptr<const refine::MeshTextures> textures = {},
+        std::shared_ptr<const refine::MeshCreases> creases = {});
 
     /// Refines the mesh for a frame; does nothing where nothing has moved. `first`: the aircraft was not drawn as this
     /// mesh in the last frame; the mesh is then refined fully, without geomorphs.
@@ -43,7 +45,8 @@ public:
     void shade(const glm::dvec3& eye_m, const shading::ShadingLight& light, int smooth);
 
     /// The mesh of the last update(), shaded by the last shade(); all smooth before the first shade(). Corners share
-    /// vertices, but the first vertex of a flat triangle is its own and has the triangle's normal and mean colour.
+    /// vertices, but the first vertex of a flat triangle is its own and has the triangle's normal and mean colour, and
+    /// so are corners at creases.
     /// Valid until the next call.
     scene::RefinedDraw draw();
 
@@ -56,10 +59,12 @@ private:
     void follow_labels();
     void write_indices();
     void write_flat(std::span<const std::uint32_t> corners);
+    std::uint32_t creased_vertex(std::uint32_t vertex, std::uint32_t slot, std::uint32_t face, std::size_t corner);
 
     refine::ViewRefiner refiner_;
     /// Null where none are shown.
     std::shared_ptr<const refine::MeshTextures> textures_;
+    std::shared_ptr<const refine::MeshCreases> creases_;
     shading::DynamicMeshSelector selector_;
     bool shows_levels_;
     /// Whether some triangles are smooth and some are not.

@@ -344,7 +344,12 @@ std::vector<glm::vec3> corner_normals(const models::polygons::PolygonModel& mode
         const auto pivot = models::polygons::pivot_of(model, i);
         faces.faces.push_back({models::polygons::normal_of(model, i), pivot ? static_cast<int>(*pivot) : fixed});
     }
-    return normals_of(faces, crease_rad);
+    std::vector<glm::vec3> normals = normals_of(faces, crease_rad);
+    if (model.corner_normals.size() != normals.size()) { return normals; } // pieces of a model have none
+    for (std::size_t corner = 0; corner < normals.size(); ++corner) {
+        if (model.corner_normals[corner] != glm::vec3(0.0F)) { normals[corner] = model.corner_normals[corner]; }
+    }
+    return normals;
 }
 
 std::vector<glm::vec3> corner_normals(const models::TriangleMesh& mesh, double crease_rad) {

@@ -37,10 +37,10 @@ inline double angle_rad(const glm::dvec3& one, const glm::dvec3& other) {
 /// Faces that meet at a larger angle than this keep a visible crease between them.
 inline constexpr double default_crease_rad = rad_from_deg(40.0);
 
-/// Computes a unit normal for each corner, in the order of PolygonModel::corner_vertices. It is the mean of the face
-/// normals around the corner's vertex, each weighted by the face's angle there. Only those faces count that can be
-/// reached from the corner's own face across edges at that vertex and whose normals are within the crease angle (0 to
-/// pi, asserted) of its own.
+/// Returns a unit normal for each corner, in the order of PolygonModel::corner_vertices: the one that the model's file
+/// gives or, where it gives none, the mean of the face normals around the corner's vertex, each weighted by the face's
+/// angle there. Only those faces count that can be reached from the corner's own face across edges at that vertex and
+/// whose normals are within the crease angle (0 to pi, asserted) of its own.
 ///
 /// Vertices at exactly the same position count as one. Faces that turn about different pivots, or of which one is
 /// fixed, do not mix. Meant for loading: the time grows with the square of the number of faces around one vertex.

@@ -1,11 +1,14 @@
 // Mesh files, polygon files, level chains and progressive meshes.
 #include "models/meshfile/level_chain.h"
 #include "models/meshfile/mesh_file.h"
+#include "models/meshfile/meshopt_decoder.h"
 #include "models/polygons/obj_reader.h"
 #include "models/polygons/obj_writer.h"
 #include "models/polygons/polygon_model.h"
 #include "models/simplify/simplify.h"
+#include "sim/base/error.h"
 #include "sim/base/hash.h"
+#include "sim/base/text_file.h"
 #include "tests/fuzz/formats/samples.h"
 #include "tests/fuzz/formats/target.h"
 #include "tests/sample_meshes.h"
@@ -15,6 +18,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <fmt/format.h>
 
 namespace octant::tests::formats {
 
@@ -183,6 +187,89 @@ const Registered target({
 });
 
 } // namespace gltf
+
+namespace meshopt {
+
+/// The decoder's own bytes behind four that say how: mode and filter, stride, count.
+void use(const std::filesystem::path& file) {
+    using models::meshfile::MeshoptView;
+    const std::string bytes = read_file(file, 1U << 20U);
+    if (bytes.size() < 4) { throw_error_in(file, "expected a head, got none"); }
+    const auto head = [&](std::size_t at) { return std::size_t{static_cast<unsigned char>(bytes[at])}; };
+    MeshoptView view;
+    view.mode = static_cast<MeshoptView::Mode>(head(0) % 3);
+    view.filter = static_cast<MeshoptView::Filter>(head(0) / 3 % 3);
+    view.stride = head(1);
+    view.count = head(2) + 256 * head(3);
+    try {
+        const std::string unpacked = models::meshfile::meshopt_unpacked(std::string_view(bytes).substr(4), view);
+        expect(unpacked.size() == view.count * view.stride, "as many bytes as asked for");
+    } catch (const Error& fault) { throw_error_in(file, fault.what()); }
+}
+
+std::vector<std::string> seeds() {
+    std::string attributes("\0\4\3\0\xa0", 5);
+    for (int k = 0; k < 4; ++k) { attributes += "\3" + std::string(16, '\2'); }
+    attributes += std::string(32, '\1');
+    return {attributes, std::string("\1\4\6\0\xe1\xf0\0", 7) + std::string(16, '\0'),
+        std::string("\2\4\3\0\xd1\x14\5\4\0\0\0\0", 12)};
+}
+
+const Registered target({.name = "meshopt", .file = "input.bin", .use = use, .seeds = seeds});
+
+} // namespace meshopt
+
+namespace ysflight {
+
+constexpr const char* surface =
+    "SURF\nV 0 0 0\nV 1 0 0 R\nV 1 1 0\nV 0 1 0\nF\nV 0 1 2 3\nN 0 0 0 0 0 1\nC 255 0 9\nE\n"
+    "F\nV 0 1 2\nN 0 0 0 0 0 0\nC 31744\nB\nE\nE\nZA 1 120\nZL 1\nE\n";
+
+const Registered surface_target({
+    .name = "srf",
+    .file = "input.srf",
+    .use = use_mesh_file,
+    .seeds = [] { return std::vector<std::string>{surface}; },
+    .words = {"V ", "F\n", "E\n", "N ", "C ", "B\n", "ZA ", "ZL ", " R\n", "VER ", "FAC\n", "END\n"},
+});
+
+const Registered model_target({
+    .name = "dnm",
+    .file = "input.dnm",
+    .use = use_mesh_file,
+    .seeds =
+        [] {
+            return std::vector<std::string>{
+                fmt::format("DYNAMODEL\nDNMVER 1\nPCK a.srf 19\n{}SRF \"body\"\nFIL a.srf\nCLA 0\nNST 1\n"
+                            "STA 0 0 0 0 0 0 1\nPOS 0 1 0 16384 0 0 1\nCNT 0 1 0\nREL DEP\nNCH 1\nCLD \"prop\"\nEND\n"
+                            "SRF \"prop\"\nFIL a.srf\nCLA 3\nNST 0\nPOS 0 0 2 0 0 0 1\nNCH 0\nEND\nEND\n",
+                    surface)};
+        },
+    .words = {"PCK ", "SRF \"", "FIL ", "CLA ", "STA ", "POS ", "CNT ", "CLD \"", "END\n", "a.srf"},
+});
+
+} // namespace ysflight
+
+namespace xplane_object {
+
+const Registered target({
+    .name = "xplane_object",
+    .file = "input.obj",
+    .use = use_mesh_file,
+    .seeds =
+        [] {
+            return std::vector<std::string>{
+                "I\n800\nOBJ\nTEXTURE none\nPOINT_COUNTS 4 0 0 6\nVT 0 0 0 0 1 0 0 0\nVT 1 0 0 0 1 0 1 0\n"
+                "VT 1 0 -1 0 1 0 1 1\nVT 0 0 -1 0 1 0 0 1\nIDX10 0 2 1 0 3 2 0 2 1 0\nIDX 3\nIDX 2\n"
+                "ATTR_LOD 0 100\nTRIS 0 6\nANIM_begin\nANIM_trans 0 1 0 0 2 0 0 1 a/b\n"
+                "ANIM_rotate_begin 0 0 1 c\nANIM_rotate_key 0 0\nANIM_rotate_key 1 90\nANIM_rotate_end\n"
+                "ANIM_rotate 1 0 0 0 45 0 1 d\nANIM_show 0 1 e\nATTR_no_cull\nTRIS 3 3\nANIM_end\n"};
+        },
+    .words = {"VT ", "IDX ", "IDX10 ", "TRIS ", "ANIM_begin\n", "ANIM_end\n", "ANIM_trans ", "ANIM_rotate ",
+        "ANIM_hide ", "ANIM_trans_begin ", "ANIM_trans_key ", "ANIM_trans_end\n", "ATTR_shade_flat\n", "ATTR_LOD "},
+});
+
+} // namespace xplane_object
 
 namespace mtl {
 

@@ -32,7 +32,7 @@ TEST_CASE("an OBJ triangle is read, and all that says nothing about triangles is
     CHECK(mesh.vertices_m == std::vector<glm::dvec3>{{0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}});
     CHECK(mesh.triangles == std::vector<Triangle>{{0, 1, 2}});
     CHECK(mesh.colours.empty());
-    CHECK(mesh.normals.empty());
+    CHECK(mesh.normals == std::vector<glm::vec3>{{0.0F, 0.0F, 1.0F}}); // s off
     CHECK(mesh.materials.empty());
     CHECK(mesh.notes.empty());
 }

@@ -219,6 +219,32 @@ TEST_CASE("aircraft that share a hierarchy have fronts of their own") {
     CHECK(shared.use_count() == 4);
 }
 
+TEST_CASE("triangles of a creased mesh have the normals of their own faces, and share vertices elsewhere") {
+    models::CollapseSequence sequence = folding_fan();
+    models::TriangleMesh& mesh = sequence.original;
+    for (const models::Triangle& triangle : mesh.triangles) { // flat triangles
+        mesh.normals.emplace_back(models::normal_of(mesh, triangle));
+        const auto normal = static_cast<std::uint32_t>(mesh.normals.size() - 1);
+        mesh.corner_normals.push_back({normal, normal, normal});
+    }
+    const auto shared = std::make_shared<const refine::ProgressiveMesh>(sequence);
+    const auto creases = refine::mesh_creases(*shared, refine::creased_normals(mesh));
+    REQUIRE(creases != nullptr);
+    planning::RefinedAircraft aircraft(shared, refining(), {}, {}, creases);
+    aircraft.update(below(5.0), looking_down(), true);
+    const scene::RefinedDraw draw = aircraft.draw();
+    REQUIRE(draw.indices.size() == 3 * rim);
+    for (std::size_t i = 0; i < draw.indices.size(); i += 3) {
+        const auto at = [&](std::size_t k) { return draw.vertices[draw.indices[i + k]]; };
+        const glm::vec3 own =
+            glm::normalize(glm::cross(at(1).position_m - at(0).position_m, at(2).position_m - at(0).position_m));
+        for (std::size_t k = 0; k < 3; ++k) { CHECK(glm::dot(at(k).normal, own) > 0.998F); }
+    }
+    planning::RefinedAircraft smooth(shared, refining(), {});
+    smooth.update(below(5.0), looking_down(), true);
+    CHECK(smooth.draw().vertices.size() < draw.vertices.size());
+}
+
 TEST_CASE("far away, where its polygons are good enough, a refined aircraft is drawn as them") {
     planning::AircraftModel model = convex_aircraft(box_model({4.0, 4.0, 1.0}));
     planning::add_progressive(model, hierarchy(), 0.5);

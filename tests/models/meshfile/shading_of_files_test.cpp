@@ -1,0 +1,126 @@
+#include "models/meshfile/mesh_file.h"
+#include "tests/models/meshfile/mesh_samples.h"
+
+#include <catch2/catch.hpp>
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <filesystem>
+#include <set>
+#include <string>
+#include <tuple>
+
+using namespace octant::models;
+using namespace octant::models::meshfile;
+using namespace octant::models::meshfile::test;
+
+namespace {
+
+const std::filesystem::path shading_samples = std::filesystem::path(OCTANT_SOURCE_DIR) / "tests" / "data" / "aircraft";
+
+/// How many corners have the normal of their own triangle, and of how many corners in all.
+std::pair<std::size_t, std::size_t> flat_corners(const TriangleMesh& mesh) {
+    std::size_t flat = 0;
+    for (std::size_t t = 0; t < mesh.corner_normals.size(); ++t) {
+        const glm::dvec3 own = normal_of(mesh, mesh.triangles[t]);
+        for (const std::uint32_t normal : mesh.corner_normals[t]) {
+            flat += glm::dot(own, glm::dvec3(mesh.normals[normal])) > 0.9999 ? 1U : 0U;
+        }
+    }
+    return {flat, 3 * mesh.corner_normals.size()};
+}
+
+/// Two squares that meet at a right angle along z.
+const std::string bent_obj = "v 0 0 0\nv 1 0 0\nv 1 0 1\nv 0 0 1\nv 1 -1 0\nv 1 -1 1\n";
+const std::string bent_faces = "f 1 4 3 2\nf 2 3 6 5\n";
+
+} // namespace
+
+TEST_CASE("flat surfaces of AC3D keep the normals of their polygons, smooth ones bend up to the crease angle") {
+    const auto [flat, all] = flat_corners(read_mesh(shading_samples / "flat.ac"));
+    CHECK(all > 1000);
+    CHECK(flat == all);
+    const auto [by_45, all_by_45] = flat_corners(read_mesh(shading_samples / "smooth45.ac"));
+    CHECK(by_45 == all_by_45); // boxes bend by 90 degrees
+    const auto [by_default, all_by_default] = flat_corners(read_mesh(shading_samples / "smooth.ac"));
+    CHECK(by_default == all_by_default);
+    const auto [by_180, all_by_180] = flat_corners(read_mesh(shading_samples / "smooth180.ac"));
+    CHECK(by_180 < all_by_180);
+}
+
+TEST_CASE("normals of OBJ files are theirs, without any there are none") {
+    const auto [flat, all] = flat_corners(read_mesh(shading_samples / "ovn.obj"));
+    CHECK(all > 10'000);
+    CHECK(flat == all);
+    CHECK(read_mesh(shading_samples / "onone.obj").corner_normals.empty());
+}
+
+TEST_CASE("smoothing groups of OBJ files tell flat from smooth polygons") {
+    const auto corners_of = [](const std::string& group) {
+        return flat_corners(read_mesh(file_with("bent.obj", bent_obj + group + bent_faces)));
+    };
+    CHECK(corners_of("s off\n") == std::pair<std::size_t, std::size_t>(12, 12));
+    CHECK(corners_of("s 0\n") == std::pair<std::size_t, std::size_t>(12, 12));
+    CHECK(corners_of("s 1\n").first == 6);
+    CHECK(corners_of("s on\n").first == 6);
+    const auto two_groups =
+        flat_corners(read_mesh(file_with("bent.obj", bent_obj + "s 1\nf 1 4 3 2\ns 2\nf 2 3 6 5\n")));
+    CHECK(two_groups.first == 12);
+    const TriangleMesh smooth = read_mesh(file_with("bent.obj", bent_obj + "s 1\n" + bent_faces));
+    bool has_bisector = false;
+    for (const glm::vec3& normal : smooth.normals) {
+        has_bisector = has_bisector || glm::distance(normal, glm::vec3(0.70710678F, 0.70710678F, 0.0F)) < 1e-5F;
+    }
+    CHECK(has_bisector);
+}
+
+TEST_CASE("glTF without normals is flat") {
+    const TriangleMesh mesh = read_mesh(shading_samples / "nose-x.glb");
+    const auto [flat, all] = flat_corners(mesh);
+    CHECK(all == 3 * mesh.triangles.size());
+    CHECK(flat == all);
+}
+
+TEST_CASE("a vertex of very many triangles gets one normal, quickly") {
+    std::string fan = "v 0 0 1\n";
+    constexpr int count = 20'000;
+    for (int i = 0; i < count; ++i) {
+        const double angle = 6.283185307179586 * i / count;
+        fan += "v " + std::to_string(std::cos(angle)) + " " + std::to_string(std::sin(angle)) + " 0\n";
+    }
+    fan += "s 1\n";
+    for (int i = 0; i < count; ++i) {
+        fan += "f 1 " + std::to_string(i + 2) + " " + std::to_string((i + 1) % count + 2) + "\n";
+    }
+    const TriangleMesh mesh = read_mesh(file_with("fan.obj", fan));
+    CHECK(glm::distance(mesh.normals[mesh.corner_normals[0][0]], glm::vec3(0.0F, 0.0F, 1.0F)) < 1e-4F);
+}
+
+TEST_CASE("blades of a FlightGear rotor stand around it by their numbers") {
+    const TriangleMesh mesh = read_mesh(shading_samples / "rotor" / "heli.xml");
+    const BoundingBox bounds = bounds_of(mesh);
+    CHECK(bounds.max_m.y - bounds.min_m.y == Approx(10.4).margin(0.2)); // not 2, as of three blades in one place
+    const RotatingModel model = read_rotating_model(shading_samples / "rotor" / "heli.xml", {});
+    REQUIRE(model.parts.size() == 1);
+    CHECK(model.parts[0].mesh.triangles.size() == 36);
+    CHECK(model.parts[0].about.direction == glm::dvec3(0.0, 0.0, 1.0));
+}
+
+TEST_CASE("what an aircraft's own file states of properties decides what is shown and where it stands") {
+    file_with("tank.ac", ac3d_square("0x0", "tank"));
+    file_with("stated.xml", "<PropertyList><path>tank.ac</path>"
+                            "<animation><type>select</type><object-name>tank</object-name><condition><equals>"
+                            "<property>/sim/fit</property><value>ferry</value></equals></condition></animation>"
+                            "<animation><type>translate</type><object-name>tank</object-name>"
+                            "<property>sim/shift[1]/m</property><factor>2</factor>"
+                            "<axis><x>1</x><y>0</y><z>0</z></axis></animation>"
+                            "<model><name>always</name><path>tank.ac</path></model></PropertyList>");
+    const auto set_file = [](const std::string& properties) {
+        return file_with("stated-set.xml",
+            "<PropertyList><sim><model><path>stated.xml</path></model>" + properties + "</sim></PropertyList>");
+    };
+    CHECK(read_mesh(set_file("<fit>short</fit>")).triangles.size() == 2);
+    const TriangleMesh mesh = read_mesh(set_file("<fit>ferry</fit><shift n=\"1\"><m>5</m></shift>"));
+    REQUIRE(mesh.triangles.size() == 4);
+    CHECK(bounds_of(mesh).max_m.x == Approx(11.0));
+}
