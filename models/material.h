@@ -1,5 +1,7 @@
 #pragma once
 
+#include "models/texture.h"
+
 #include <glm/vec3.hpp>
 
 #include <memory>
@@ -26,6 +28,10 @@ struct Material {
     std::string picture = {};
     /// The encoded image if it is inside the mesh's file, else null.
     std::shared_ptr<const std::string> picture_bytes = {};
+    /// The decoded image, for drawing; none unless the reader was asked for it (meshfile::ReadOptions::textures).
+    SurfaceTexture texture = {};
+    /// The file of the image by which the surface glows, or the name of one inside the mesh's file; empty = none.
+    std::string emissive_picture = {};
 };
 
 } // namespace octant::models

@@ -23,12 +23,13 @@ namespace {
 using std::filesystem::path;
 
 Dataset open(const path& file, const GdalSession& gdal) {
-    constexpr std::array drivers = {"GTiff", "PNG", "JPEG", "BMP", "SGI", "TGA", static_cast<const char*>(nullptr)};
+    constexpr std::array drivers = {
+        "GTiff", "PNG", "JPEG", "BMP", "SGI", "TGA", "GIF", "WEBP", static_cast<const char*>(nullptr)};
     constexpr unsigned flags = GDAL_OF_RASTER | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR;
     Dataset dataset(GDALOpenEx(file.c_str(), flags, drivers.data(), nullptr, nullptr));
     if (!dataset) {
         throw_unreadable(file, "an image",
-            gdal.is_unknown_format() ? "another kind of file (GeoTIFF, PNG, JPEG, BMP, SGI and TGA are read)"
+            gdal.is_unknown_format() ? "another kind of file (GeoTIFF, PNG, JPEG, BMP, SGI, TGA, GIF and WebP are read)"
                                      : gdal.reason(file));
     }
     return dataset;
@@ -114,16 +115,18 @@ void place(GDALDatasetH dataset, Image& image) {
     image.wkt = wkt_of(system);
 }
 
-Image image_from(const path& file) {
+Image image_from(const path& file, int largest_px) {
     GdalSession gdal;
     const Dataset dataset = open(file, gdal);
     gdal.forget();
     const auto bands = colour_bands(file, dataset.get());
     const int width = GDALGetRasterXSize(dataset.get());
     const int height = GDALGetRasterYSize(dataset.get());
-    const double shrink = std::max({width, height, max_image_px}) / static_cast<double>(max_image_px);
+    const double shrink = std::max({width, height, largest_px}) / static_cast<double>(largest_px);
     Image image;
     image.name = file.filename().string();
+    image.file_width = width;
+    image.file_height = height;
     image.width = std::max(static_cast<int>(std::lround(width / shrink)), 1);
     image.height = std::max(static_cast<int>(std::lround(height / shrink)), 1);
     if (shrink > 1.0) {
@@ -146,17 +149,17 @@ Image image_from(const path& file) {
 
 } // namespace
 
-Image read_image(const path& file) {
+Image read_image(const path& file, int largest_px) {
     check_local_file(file);
     try {
-        return image_from(file);
+        return image_from(file, largest_px);
     } catch (const std::bad_alloc&) { throw_error_in(file, "expected an image that fits in memory, got a larger one"); }
 }
 
-Image image_from_bytes(const std::string& name, std::string_view bytes) {
+Image image_from_bytes(const std::string& name, std::string_view bytes, int largest_px) {
     try {
         const MemoryFile file("octant-image", bytes);
-        Image image = image_from(file.path());
+        Image image = image_from(file.path(), largest_px);
         image.name = name;
         return image;
     } catch (const Error&) {

@@ -19,6 +19,8 @@ namespace octant::models::heights {
 struct Image {
     int width = 0;
     int height = 0;
+    int file_width = 0; ///< in the file, before it was reduced; 0 for an image that was made
+    int file_height = 0;
     std::vector<std::uint8_t> rgba; ///< row after row from the top; alpha 0 = no data
     /// x = t[0] + column t[1] + row t[2], y = t[3] + column t[4] + row t[5] in `wkt`; column and row count from the
     /// outer corner of the first pixel.
@@ -33,21 +35,21 @@ struct Image {
     }
 };
 
-/// Largest width and height that is held, pixels. A larger file is read at reduced resolution, averaged, and `note`
-/// says so.
+/// Largest width and height that is held unless a smaller one is asked for, pixels. A larger file is read at reduced
+/// resolution, averaged, and `note` says so.
 inline constexpr int max_image_px = 16384;
 
-/// Reads an image of 8 bits a part: GeoTIFF, PNG, JPEG, BMP, SGI or TGA with red, green and blue, grey or a palette,
-/// with or without alpha or a value for no data. Nothing else is opened, no network is used and nothing is written. A
-/// file counts as placed when it has both a coordinate system and a pixel size, in it or in a side file (.aux.xml, .tfw
-/// and the like). Memory: 4 bytes a pixel.
+/// Reads an image of 8 bits a part: GeoTIFF, PNG, JPEG, BMP, SGI, TGA, GIF or WebP with red, green and blue, grey or a
+/// palette, with or without alpha or a value for no data. Nothing else is opened, no network is used and nothing is
+/// written. A file counts as placed when it has both a coordinate system and a pixel size, in it or in a side file
+/// (.aux.xml, .tfw and the like). Memory: 4 bytes a pixel.
 ///
 /// Throws Error "file: expected ..., got ..." for no readable file, a damaged one, other kinds of file and other
 /// depths.
-Image read_image(const std::filesystem::path& file);
+Image read_image(const std::filesystem::path& file, int largest_px = max_image_px);
 
 /// Reads an image from the bytes of a file; `name` is for messages.
-Image image_from_bytes(const std::string& name, std::string_view bytes);
+Image image_from_bytes(const std::string& name, std::string_view bytes, int largest_px = max_image_px);
 
 /// The extent of a ground that an image covers.
 struct GroundArea {

@@ -34,6 +34,7 @@ struct Ac3dObject {
     bool is_placeholder = false; ///< left out because it is no surface (ReadOptions::placeholders)
     std::uint32_t group = invalid_index;
     AffineTransform moved; ///< applied to positions of the file
+    std::string picture;   ///< in place of the one that it names; empty: that one
 };
 
 /// Whether an object's name says that it represents turning blades, a light cone or a shadow on the ground.
@@ -57,6 +58,9 @@ Ac3dObject object_settings(const std::string& name, const Ac3dObject& holder, co
     }
     if (const auto move = options.moved.find(name); move != options.moved.end()) {
         object.moved = holder.moved.of(move->second);
+    }
+    if (const auto other = options.repainted.find(name); other != options.repainted.end()) {
+        object.picture = other->second;
     }
     return object;
 }
@@ -241,21 +245,28 @@ private:
 
     /// How an object's picture lies on its surfaces.
     struct ObjectPicture {
-        std::uint32_t number = BakedPictures::none;
+        PolygonPicture shown = {};
         std::string file = {}; ///< named by materials; empty where pictures are baked
         bool is_named = false;
         glm::vec2 repeat{1.0F};
         glm::vec2 shift{0.0F};
     };
 
+    /// The picture that stands in for the one of the object at hand; empty for none.
+    const std::string& repainted() const {
+        const auto all = options_.repainted.find("");
+        return !object_.picture.empty() || all == options_.repainted.end() ? object_.picture : all->second;
+    }
+
     void take_picture(ObjectPicture& picture) {
         std::string_view rest = words_.rest_of_line();
-        const std::string name = read_ac3d_name(rest, words_);
-        picture.is_named = !name.empty() && name != "empty_texture_no_mapping";
+        const std::string own = read_ac3d_name(rest, words_);
+        picture.is_named = !own.empty() && own != "empty_texture_no_mapping";
+        const std::string& name = repainted().empty() ? own : repainted();
         if (picture.is_named && !mesh_.uses_pictures()) {
             picture.file = picture_file(path_, name);
         } else if (picture.is_named) {
-            picture.number = mesh_.pictures().picture(name);
+            picture.shown = {.picture = mesh_.pictures().picture(name)};
         }
     }
 
@@ -359,7 +370,7 @@ private:
         mesh_.set_smoothing({is_smooth ? smoothing_group_ : Smoothing::flat, static_cast<float>(crease_rad_)});
         mesh_.set_group(object_.group);
         if (mirrored) { std::ranges::reverse(corners_); }
-        mesh_.add_polygon(corners_, materials_.used(material, picture.file, mesh_), picture.number);
+        mesh_.add_polygon(corners_, materials_.used(material, picture.file, mesh_), picture.shown);
     }
 
     void add_notes() {

@@ -269,7 +269,9 @@ struct FlightGearAnimations {
     std::vector<FlightGearRotation> turns;      ///< of objects about the same axis only one
     std::vector<FlightGearRestPlacement> moves; ///< in the file's order: the first one moves what others moved
     std::map<std::string, int> at_rest;         ///< how many others there are, by their types
-    std::vector<std::string> notes;             ///< faults in them; often none
+    /// Pictures that a `material` animation puts on objects while its properties are not set; "" = on all others.
+    std::map<std::string, std::string> pictures;
+    std::vector<std::string> notes; ///< faults in them; often none
 
     /// What turns an object; the empty name stands for all of the model. Null for what stays.
     const FlightGearRotation* turn_of(const std::string& object) const {
@@ -527,6 +529,12 @@ FlightGearAnimations flightgear_animations(const XmlElement& root, const Resting
         } else if (auto turn = unless_faulty(rotation_in_flight, child, animated.notes)) {
             expand(turn->objects, groups);
             add_turn(std::move(*turn), animated.turns);
+        } else if (const std::string picture(child.text_of("texture"));
+                   kind == "material" && !picture.empty() && holds_at_rest(child, properties)) {
+            Names objects = objects_of(child);
+            if (objects.empty()) { objects.insert(""); }
+            expand(objects, groups);
+            for (const std::string& object : objects) { animated.pictures.insert_or_assign(object, picture); }
         } else {
             ++animated.at_rest[kind];
             if (kind == "translate" || kind == "rotate") { add_shadows(child, animated.hidden); }
@@ -635,8 +643,15 @@ private:
             if (depth == 0 && flightgear_file(file, name).empty()) {
                 throw_error_in(file, "expected a file of its path, got none called " + in_quotes(name));
             }
+            for (const auto& [object, picture] : animated.pictures) {
+                const fs::path found = picture_file(file, picture, file.parent_path());
+                if (std::error_code ignored; fs::is_regular_file(found, ignored)) {
+                    options_.repainted[object] = fs::absolute(found).string();
+                }
+            }
             take_named(file, name, own, animated, about, depth);
         }
+        options_.repainted.clear();
         options_.pictures_in.clear();
         for (const XmlElement& child : root.children) {
             const std::string path(child.text_of("path"));

@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -42,24 +43,6 @@ constexpr std::uint32_t binary_chunk = 0x004e4942;
 std::size_t bytes_of(int component) { return component <= 5121 ? 1 : (component <= 5123 ? 2 : 4); }
 
 std::string shown(const Json& value) { return in_quotes(value.dump(-1, ' ', true, Json::error_handler_t::replace)); }
-
-/// %20 and the like as the bytes they stand for; nothing when there is no such byte.
-std::optional<std::string> without_percents(std::string_view text) {
-    std::string out;
-    for (std::size_t i = 0; i < text.size(); ++i) {
-        if (text[i] != '%') {
-            out += text[i];
-            continue;
-        }
-        const std::string hex(text.substr(i + 1, 2));
-        if (hex.size() != 2 || hex.find_first_not_of("0123456789abcdefABCDEF") != hex.npos || hex == "00") {
-            return std::nullopt;
-        }
-        out += static_cast<char>(std::stoi(hex, nullptr, 16));
-        i += 2;
-    }
-    return out;
-}
 
 /// A relative path that does not leave its folder.
 bool stays_inside(const std::filesystem::path& path) {
@@ -487,38 +470,122 @@ const Json* object_in(const Json& json, const char* name) {
     return found != json.end() && found->is_object() ? &*found : nullptr;
 }
 
-/// A material's baseColorTexture; null where it has none.
+/// An extension of an object; null where it has none.
+const Json* extension_in(const Json& json, const char* name) {
+    const Json* extensions = object_in(json, "extensions");
+    return extensions != nullptr ? object_in(*extensions, name) : nullptr;
+}
+
+/// A material's baseColorTexture, else its diffuseTexture of KHR_materials_pbrSpecularGlossiness; null where it has
+/// none.
 const Json* base_texture(GltfData& data, std::size_t material) {
-    const Json* rough = object_in(data.entry("materials", material), "pbrMetallicRoughness");
-    return rough != nullptr ? object_in(*rough, "baseColorTexture") : nullptr;
+    const Json& json = data.entry("materials", material);
+    const Json* rough = object_in(json, "pbrMetallicRoughness");
+    const Json* base = rough != nullptr ? object_in(*rough, "baseColorTexture") : nullptr;
+    const Json* glossy = extension_in(json, "KHR_materials_pbrSpecularGlossiness");
+    return base == nullptr && glossy != nullptr ? object_in(*glossy, "diffuseTexture") : base;
+}
+
+/// The image that a reference to a texture shows, also one of a format that an extension adds.
+std::optional<std::size_t> image_of(GltfData& data, const Json* reference, const std::string& where) {
+    const auto number =
+        reference == nullptr ? std::nullopt : data.index(*reference, "index", data.count_of("textures"), where);
+    if (!number) { return std::nullopt; }
+    const Json& texture = data.entry("textures", *number);
+    const std::size_t images = data.count_of("images");
+    for (const char* name : {"EXT_texture_webp", "MSFT_texture_dds"}) {
+        if (const Json* extension = extension_in(texture, name); extension != nullptr) {
+            return data.index(*extension, "source", images, where);
+        }
+    }
+    return data.index(texture, "source", images, where);
 }
 
 std::optional<std::size_t> image_of(GltfData& data, std::size_t material) {
-    const std::string where = fmt::format("materials[{}]", material);
-    const Json* base = base_texture(data, material);
-    const auto texture = base == nullptr ? std::nullopt : data.index(*base, "index", data.count_of("textures"), where);
-    return texture ? data.index(data.entry("textures", *texture), "source", data.count_of("images"), where)
-                   : std::nullopt;
+    return image_of(data, base_texture(data, material), fmt::format("materials[{}]", material));
 }
 
-/// The number of a material's base colour picture among `pictures`, read once. What cannot be read is noted and left
-/// out.
-std::uint32_t baked_picture(GltfData& data, std::size_t material, BakedPictures& pictures) {
+/// The file of an image outside the glTF file, as named there; nothing for one inside.
+std::optional<std::string> image_file(GltfData& data, std::size_t image) {
+    const Json uri = data.entry("images", image).value("uri", Json());
+    if (!uri.is_string() || uri.get_ref<const std::string&>().starts_with("data:")) { return std::nullopt; }
+    return without_percents(uri.get_ref<const std::string&>()).value_or(uri.get<std::string>());
+}
+
+/// The number of an image among `pictures`, read once. What cannot be read is noted and left out.
+std::uint32_t picture_number(GltfData& data, std::size_t image, BakedPictures& pictures) {
+    if (const auto file = image_file(data, image)) { return pictures.picture(*file); }
+    return pictures.picture(fmt::format("images[{}]", image), data.image_bytes(image));
+}
+
+TextureWrap wrap_of(GltfData& data, const Json* sampler, const char* name) {
+    constexpr std::size_t clamp = 33071;
+    constexpr std::size_t mirror = 33648;
+    const auto number = sampler == nullptr ? std::nullopt : data.index(*sampler, name, mirror + 1, "samplers");
+    return number == clamp ? TextureWrap::Clamp : number == mirror ? TextureWrap::Mirror : TextureWrap::Repeat;
+}
+
+/// A material's base colour picture, and how it lies on surfaces.
+PolygonPicture polygon_picture(GltfData& data, std::size_t material, BakedPictures& pictures) {
+    PolygonPicture made;
     const auto image = image_of(data, material);
-    return image ? pictures.picture(fmt::format("images[{}]", *image), data.image_bytes(*image)) : BakedPictures::none;
+    if (!image) { return made; }
+    const std::string where = fmt::format("materials[{}]", material);
+    made.picture = picture_number(data, *image, pictures);
+    const auto number = data.index(*base_texture(data, material), "index", data.count_of("textures"), where);
+    const auto sampler =
+        data.index(data.entry("textures", number.value_or(0)), "sampler", data.count_of("samplers"), where);
+    const Json* sampling = sampler ? &data.entry("samplers", *sampler) : nullptr;
+    made.wrap_u = wrap_of(data, sampling, "wrapS");
+    made.wrap_v = wrap_of(data, sampling, "wrapT");
+    const Json& json = data.entry("materials", material);
+    const Json mode = json.value("alphaMode", Json());
+    made.alpha = mode == "MASK" ? TextureAlpha::Mask : mode == "BLEND" ? TextureAlpha::Blend : TextureAlpha::Opaque;
+    const Json cutoff = json.value("alphaCutoff", Json());
+    if (mode == "MASK" && cutoff.is_number()) {
+        made.threshold = static_cast<float>(std::clamp(cutoff.get<double>(), 0.0, 1.0));
+    }
+    return made;
 }
 
-/// Names a material's base colour picture in `made`: the file, or the bytes in the file at `path`.
+/// Names a material's pictures in `made`: the file, or the bytes in the file at `path`.
 void take_picture(GltfData& data, std::size_t material, const std::filesystem::path& path, Material& made) {
+    const auto glow = image_of(data, object_in(data.entry("materials", material), "emissiveTexture"), "materials");
+    if (glow) {
+        const auto file = image_file(data, *glow);
+        made.emissive_picture = file ? picture_file(path, *file).string() : fmt::format("picture-{}", *glow);
+    }
     const auto image = image_of(data, material);
     if (!image) { return; }
-    const Json uri = data.entry("images", *image).value("uri", Json());
-    if (uri.is_string() && !uri.get_ref<const std::string&>().starts_with("data:")) {
-        made.picture = picture_file(path, uri.get<std::string>()).string();
+    if (const auto file = image_file(data, *image)) {
+        made.picture = picture_file(path, *file).string();
         return;
     }
     made.picture = fmt::format("picture-{}", *image);
     made.picture_bytes = std::make_shared<const std::string>(data.image_bytes(*image));
+}
+
+/// Where KHR_texture_transform moves texture coordinates, which count v downwards.
+struct TextureMove {
+    glm::dvec2 across{1.0, 0.0}; ///< where u leads
+    glm::dvec2 down{0.0, 1.0};   ///< where v leads
+    glm::dvec2 shift{0.0};
+
+    bool operator==(const TextureMove&) const = default;
+};
+
+TextureMove texture_move(GltfData& data, const Json* base) {
+    TextureMove made;
+    const Json* json = base == nullptr ? nullptr : extension_in(*base, "KHR_texture_transform");
+    if (json == nullptr) { return made; }
+    const std::vector<double> shift = data.numbers(*json, "offset", {0.0, 0.0}, "KHR_texture_transform");
+    const std::vector<double> scale = data.numbers(*json, "scale", {1.0, 1.0}, "KHR_texture_transform");
+    const Json turn = json->value("rotation", Json(0.0));
+    const double angle_rad = turn.is_number() ? turn.get<double>() : 0.0;
+    made.across = scale[0] * glm::dvec2(std::cos(angle_rad), -std::sin(angle_rad));
+    made.down = scale[1] * glm::dvec2(std::sin(angle_rad), std::cos(angle_rad));
+    made.shift = {shift[0], shift[1]};
+    return made;
 }
 
 /// The accessor of a primitive's texture coordinates: those of its material's base colour picture, the first ones where
@@ -527,7 +594,9 @@ std::optional<std::size_t> texture_accessor(
     GltfData& data, std::optional<std::size_t> material, const Json& attributes) {
     constexpr std::size_t max_sets = 8;
     const Json* base = material ? base_texture(data, *material) : nullptr;
-    const std::size_t set = base == nullptr ? 0 : data.index(*base, "texCoord", max_sets, "materials").value_or(0);
+    const Json* moved = base == nullptr ? nullptr : extension_in(*base, "KHR_texture_transform");
+    const Json* naming = moved != nullptr && moved->contains("texCoord") ? moved : base;
+    const std::size_t set = naming == nullptr ? 0 : data.index(*naming, "texCoord", max_sets, "materials").value_or(0);
     return data.index(attributes, fmt::format("TEXCOORD_{}", set).c_str(), data.count_of("accessors"), "attributes");
 }
 
@@ -599,8 +668,8 @@ private:
         std::vector<std::uint32_t> corners = corner_list(primitive, count, where);
         const auto material = data_.index(primitive, "material", materials_.size(), where);
         const std::uint32_t used = material ? used_material(*material) : invalid_index;
-        const std::uint32_t picture =
-            material && mesh_.uses_pictures() ? baked_picture(data_, *material, mesh_.pictures()) : BakedPictures::none;
+        const PolygonPicture picture =
+            material && mesh_.uses_pictures() ? polygon_picture(data_, *material, mesh_.pictures()) : PolygonPicture();
         const std::uint32_t first_texture = texture_coordinates(material, *attributes, count);
         const auto texture = texture_accessor(data_, material, *attributes);
         for (const auto& [name, number] : attributes->items()) {
@@ -616,7 +685,7 @@ private:
             };
             std::array<CornerIndices, 3> triangle{corner(a), corner(b), corner(c)};
             if (placement.mirrors()) { std::swap(triangle[1], triangle[2]); }
-            mesh_.add_polygon(triangle, used, first_texture == invalid_index ? BakedPictures::none : picture);
+            mesh_.add_polygon(triangle, used, first_texture == invalid_index ? PolygonPicture() : picture);
         };
         add_triangles(mode, corners, add, where);
     }
@@ -714,16 +783,23 @@ private:
     std::uint32_t texture_coordinates(std::optional<std::size_t> material, const Json& attributes, std::size_t count) {
         const auto index = texture_accessor(data_, material, attributes);
         if (!index) { return invalid_index; }
-        const auto known = texture_coordinates_.find(*index);
-        if (known != texture_coordinates_.end() && known->second.second == count) { return known->second.first; }
+        const TextureMove move = texture_move(data_, material ? base_texture(data_, *material) : nullptr);
+        for (const PlacedTexture& known : texture_coordinates_) {
+            if (known.accessor == *index && known.move == move && known.count == count) { return known.first; }
+        }
         const GltfAccessor list = data_.accessor(*index);
         if (list.parts() != 2 || list.count() != count) { return invalid_index; }
         const auto first = static_cast<std::uint32_t>(mesh_.texture_coordinates_count());
         for (std::size_t i = 0; i < count; ++i) { // glTF counts v downwards
-            mesh_.add_texture_coordinates(
-                {static_cast<float>(list.at(i, 0)), 1.0F - static_cast<float>(list.at(i, 1))});
+            if (move == TextureMove()) {
+                mesh_.add_texture_coordinates(
+                    {static_cast<float>(list.at(i, 0)), 1.0F - static_cast<float>(list.at(i, 1))});
+                continue;
+            }
+            const glm::dvec2 place = list.at(i, 0) * move.across + list.at(i, 1) * move.down + move.shift;
+            mesh_.add_texture_coordinates({static_cast<float>(place.x), static_cast<float>(1.0 - place.y)});
         }
-        texture_coordinates_[*index] = {first, count};
+        texture_coordinates_.push_back({*index, move, first, count});
         return first;
     }
 
@@ -769,9 +845,23 @@ private:
                 opacity = static_cast<float>(std::clamp(c[3], 0.0, 1.0));
             }
         }
+        if (const Json* glossy = extension_in(json, "KHR_materials_pbrSpecularGlossiness");
+            glossy != nullptr && rough == json.end()) {
+            const auto c = data_.numbers(*glossy, "diffuseFactor", {1.0, 1.0, 1.0, 1.0}, where);
+            check_colour({c[0], c[1], c[2]}, where);
+            made.colour = glm::vec3(srgb_from_linear({c[0], c[1], c[2]}));
+        }
         take_picture(data_, index, path_, made);
         return materials_[index] = mesh_.add_material(std::move(made), opacity);
     }
+
+    /// Texture coordinates that were added, by where they come from.
+    struct PlacedTexture {
+        std::size_t accessor = 0;
+        TextureMove move;
+        std::uint32_t first = 0;
+        std::size_t count = 0;
+    };
 
     std::filesystem::path path_;
     GltfData data_;
@@ -779,7 +869,7 @@ private:
     std::vector<std::uint32_t> materials_; ///< of the file, as materials of the mesh
     std::map<std::pair<std::size_t, std::size_t>, std::pair<std::uint32_t, std::size_t>> vertices_;
     std::map<std::size_t, std::pair<std::uint32_t, std::size_t>> normals_;
-    std::map<std::size_t, std::pair<std::uint32_t, std::size_t>> texture_coordinates_;
+    std::vector<PlacedTexture> texture_coordinates_; ///< of the mesh at hand
     std::size_t numbers_ = 0;
     std::size_t skipped_ = 0;
     std::set<std::string> not_read_; ///< attributes

@@ -1,5 +1,6 @@
 #include "models/meshfile/level_chain.h"
 
+#include "models/meshfile/mesh_formats.h"
 #include "models/polygons/polygon_model.h"
 #include "models/triangle_mesh.h"
 #include "sim/base/binary_file.h"
@@ -12,8 +13,12 @@
 #include <cassert>
 #include <cmath>
 #include <cstdint>
+#include <filesystem>
 #include <fmt/format.h>
+#include <map>
+#include <memory>
 #include <string>
+#include <tuple>
 #include <utility>
 
 namespace octant::models::meshfile {
@@ -224,6 +229,75 @@ polygons::PolygonModel take_model(BinaryReader& in) {
     return model;
 }
 
+// Pictures follow the polygons where a level has texture coordinates: the encoded pictures, then for each level its
+// texture coordinates and, for each of its materials, the number of its picture.
+
+constexpr std::uint32_t max_chain_pictures = 10'000;
+
+bool has_textures(const LevelChain& chain) {
+    return std::ranges::any_of(
+        chain.levels, [](const ChainLevel& level) { return !level.mesh.corner_texture_coordinates.empty(); });
+}
+
+void put_textures(const LevelChain& chain, BinaryWriter& out) {
+    std::vector<std::pair<std::string, std::shared_ptr<const std::string>>> pictures; // by name
+    std::map<std::string, std::uint32_t> numbers;
+    for (const ChainLevel& level : chain.levels) {
+        for (const Material& material : level.mesh.materials) {
+            const auto bytes = numbers.contains(material.picture) ? nullptr : picture_bytes_of(material);
+            if (bytes && pictures.size() < max_chain_pictures) {
+                numbers.emplace(material.picture, static_cast<std::uint32_t>(pictures.size()));
+                pictures.emplace_back(std::filesystem::path(material.picture).filename().string(), bytes);
+            }
+        }
+    }
+    out.put(static_cast<std::uint32_t>(pictures.size()));
+    for (const auto& [name, bytes] : pictures) {
+        out.put_text(name);
+        out.put_text(*bytes);
+    }
+    for (const ChainLevel& level : chain.levels) {
+        out.put_list(level.mesh.texture_coordinates);
+        out.put_list(level.mesh.corner_texture_coordinates);
+        for (const Material& material : level.mesh.materials) {
+            const auto known = numbers.find(material.picture);
+            out.put(known == numbers.end() ? invalid_index : known->second);
+        }
+    }
+}
+
+/// Whether all corners of each triangle have texture coordinates of the list, or none has.
+bool are_texture_corners(const TriangleMesh& mesh) {
+    const std::size_t count = mesh.texture_coordinates.size();
+    return (mesh.corner_texture_coordinates.empty() ||
+               mesh.corner_texture_coordinates.size() == mesh.triangles.size()) &&
+           std::ranges::all_of(mesh.corner_texture_coordinates, [&](const Triangle& corners) {
+               return corners == Triangle{invalid_index, invalid_index, invalid_index} ||
+                      std::ranges::max(corners) < count;
+           });
+}
+
+void take_textures(BinaryReader& in, LevelChain& chain) {
+    ChainReader reader(in);
+    const auto count = in.take<std::uint32_t>("a number of pictures");
+    in.check(count <= max_chain_pictures, "at most 10,000 pictures");
+    std::vector<std::pair<std::string, std::shared_ptr<const std::string>>> pictures;
+    for (std::uint32_t i = 0; i < count; ++i) {
+        std::string name(in.take_text("a picture's name"));
+        pictures.emplace_back(std::move(name), std::make_shared<const std::string>(in.take_text("a picture")));
+    }
+    for (ChainLevel& level : chain.levels) {
+        reader.take(level.mesh.texture_coordinates);
+        level.mesh.corner_texture_coordinates = in.take_list<Triangle>();
+        in.check(are_texture_corners(level.mesh), "texture coordinates in range");
+        for (Material& material : level.mesh.materials) {
+            const auto number = in.take<std::uint32_t>("a picture's number");
+            in.check(number == invalid_index || number < pictures.size(), "pictures in range");
+            if (number != invalid_index) { std::tie(material.picture, material.picture_bytes) = pictures[number]; }
+        }
+    }
+}
+
 constexpr ArchiveKind chain_kind{
     .content = "a chain of levels", .signature = "octchain", .version = 1, .max_bytes = std::size_t{1} << 31U};
 constexpr std::uint32_t max_levels = 1000;
@@ -258,6 +332,7 @@ LevelChain take_chain(BinaryReader& in) {
         chain.polygons_error_m = take_error_m(in, 0.0);
         chain.polygons = take_model(in);
     }
+    if (in.bytes_left() > 0) { take_textures(in, chain); }
     return chain;
 }
 
@@ -282,6 +357,7 @@ void write_chain(const std::filesystem::path& path, const LevelChain& chain) {
         writer.out.put(chain.polygons_error_m);
         each_part_of_model(*chain.polygons, put);
     }
+    if (has_textures(chain)) { put_textures(chain, writer.out); }
     write_archive(path, chain_kind, writer.out.bytes());
 }
 

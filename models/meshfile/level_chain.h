@@ -34,8 +34,9 @@ bool is_chain_file(const std::filesystem::path& path);
 /// file cannot hold.
 LevelChain read_chain(const std::filesystem::path& path);
 
-/// One versioned, checksummed binary file. Positions are stored in double, every bit of them: the certified errors hold
-/// for what is read back as they are. Throws Error.
+/// One versioned, checksummed binary file, with texture coordinates and the encoded pictures of materials inside.
+/// Positions are stored in double, every bit of them: the certified errors hold for what is read back as they are.
+/// Throws Error.
 void write_chain(const std::filesystem::path& path, const LevelChain& chain);
 
 } // namespace octant::models::meshfile

@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <cassert>
-#include <cctype>
 #include <cmath>
 #include <fmt/format.h>
 #include <utility>
@@ -36,23 +35,24 @@ struct Sum {
 };
 
 /// The colour of the pixel at a place, and how much of it is there, 0..1.
-std::pair<glm::dvec3, double> pixel_at(const heights::Image& picture, const glm::dvec2& place) {
+std::pair<glm::dvec3, double> pixel_at(const PictureView& picture, const glm::dvec2& place) {
     const auto cell = [](double share, int count) {
         const double inside = share - std::floor(share);
         return std::min(static_cast<int>(inside * count), count - 1);
     };
-    const std::uint8_t* pixel = picture.pixel(cell(place.x, picture.width), cell(place.y, picture.height));
-    return {glm::dvec3(pixel[0], pixel[1], pixel[2]) / 255.0, pixel[3] / 255.0};
+    const auto row = static_cast<std::size_t>(cell(place.y, picture.height)) * static_cast<std::size_t>(picture.width);
+    const std::uint8_t* pixel = &picture.rgba[4 * (row + static_cast<std::size_t>(cell(place.x, picture.width)))];
+    return {glm::dvec3(pixel[0], pixel[1], pixel[2]) / 255.0, picture.ignores_alpha ? 1.0 : pixel[3] / 255.0};
 }
 
-bool hides_all(const heights::Image& picture) {
-    for (std::size_t at = 3; at < picture.rgba.size(); at += 4) {
-        if (picture.rgba[at] != 255) { return false; }
+bool hides_all(std::span<const std::uint8_t> rgba) {
+    for (std::size_t at = 3; at < rgba.size(); at += 4) {
+        if (rgba[at] != 255) { return false; }
     }
     return true;
 }
 
-int samples_of(const heights::Image& picture, const std::array<glm::vec2, 3>& places) {
+int samples_of(const PictureView& picture, const std::array<glm::vec2, 3>& places) {
     double longest_px = 0.0;
     for (std::size_t k = 0; k < 3; ++k) {
         const glm::dvec2 side(places.at((k + 1) % 3) - places.at(k));
@@ -65,7 +65,7 @@ int samples_of(const heights::Image& picture, const std::array<glm::vec2, 3>& pl
 /// Calls `visit(share, colour, there)` for samples spread over a triangle: the shares of its corners, the picture's
 /// colour, and how much of it is there, 0..1. Returns the number of samples.
 template <typename Visit>
-int for_each_sample(const heights::Image& picture, const std::array<glm::vec2, 3>& places, const Visit& visit) {
+int for_each_sample(const PictureView& picture, const std::array<glm::vec2, 3>& places, const Visit& visit) {
     const int steps = samples_of(picture, places);
     for (int i = 0; i < steps; ++i) {
         for (int j = 0; i + j < steps; ++j) {
@@ -80,7 +80,7 @@ int for_each_sample(const heights::Image& picture, const std::array<glm::vec2, 3
 }
 
 /// Adds what a triangle shows around each of its corners.
-void add_picture(const heights::Image& picture, const std::array<glm::vec2, 3>& places, const glm::dvec3& tint,
+void add_picture(const PictureView& picture, const std::array<glm::vec2, 3>& places, const glm::dvec3& tint,
     double area, const std::array<Sum*, 3>& sums) {
     const int steps = samples_of(picture, places);
     const double weight = 2.0 * area / (static_cast<double>(steps) * (steps + 1));
@@ -99,11 +99,6 @@ bool is_good(const std::array<glm::vec2, 3>& places) {
 
 } // namespace
 
-std::string lower_case(std::string text) {
-    std::ranges::transform(text, text.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return text;
-}
-
 bool names_shadow(std::string_view lower_name) {
     return lower_name.find("shadow") != lower_name.npos && lower_name.find("noshadow") == lower_name.npos;
 }
@@ -115,26 +110,12 @@ std::optional<double> colour_fault(const glm::dvec3& colour) {
     return std::nullopt;
 }
 
-fs::path picture_file(const fs::path& mesh_file, const std::string& name, const fs::path& folder) {
-    std::string slashes = name;
-    std::ranges::replace(slashes, '\\', '/');
-    std::error_code ignored;
-    const fs::path beside = mesh_file.parent_path();
-    for (const fs::path& from : {folder.empty() ? beside : folder, beside}) {
-        for (const fs::path& file : {from / slashes, from / fs::path(slashes).filename()}) {
-            if (fs::is_regular_file(file, ignored)) { return file; }
-        }
-    }
-    return beside / slashes;
-}
-
 template <typename Read>
 std::uint32_t BakedPictures::kept(const std::string& name, Read&& read) {
     const auto [at, is_new] = known_.try_emplace(name, none);
     if (is_new) {
         try {
-            pictures_.push_back(std::make_shared<const heights::Image>(read()));
-            is_opaque_.push_back(hides_all(*pictures_.back()));
+            pictures_.push_back(read());
             at->second = static_cast<std::uint32_t>(pictures_.size() - 1);
         } catch (const Error& fault) {
             notes_.push_back(fmt::format("{}; its surfaces have their material's colour", fault.what()));
@@ -143,20 +124,63 @@ std::uint32_t BakedPictures::kept(const std::string& name, Read&& read) {
     return at->second;
 }
 
+BakedPictures::BakedPictures(fs::path mesh_file, const ReadOptions& options)
+    : mesh_file_(std::move(mesh_file)), folder_(options.pictures_in), store_(options.textures) {}
+
 std::uint32_t BakedPictures::picture(const std::string& name) {
     return kept(name, [&] {
         const fs::path file = picture_file(mesh_file_, name, folder_);
-        if (std::error_code ignored; fs::is_regular_file(file, ignored)) { return heights::read_image(file); }
-        throw_error_in(mesh_file_, fmt::format("expected a picture '{}', got none", printable(name)));
+        if (std::error_code ignored; !fs::is_regular_file(file, ignored)) {
+            throw_error_in(mesh_file_, fmt::format("expected a picture '{}', got none", printable(name)));
+        }
+        Picture made{.image = {}, .texture = {}, .name = file.string(), .bytes = {}};
+        if (store_) {
+            made.texture = store_->picture_in(file, extension_of(mesh_file_) == ".ac");
+            made.is_opaque = made.texture->is_opaque;
+        } else {
+            made.image = std::make_shared<const heights::Image>(heights::read_image(file));
+            made.is_opaque = hides_all(made.image->rgba);
+        }
+        return made;
     });
 }
 
 std::uint32_t BakedPictures::picture(const std::string& name, std::string_view bytes) {
-    return kept(name, [&] { return heights::image_from_bytes(name, bytes); });
+    return kept(name, [&] {
+        Picture made{.image = {}, .texture = {}, .name = name, .bytes = {}};
+        if (store_) {
+            made.texture = store_->picture_of(name, bytes);
+            made.is_opaque = made.texture->is_opaque;
+            made.bytes = std::make_shared<const std::string>(bytes);
+        } else {
+            made.image = std::make_shared<const heights::Image>(heights::image_from_bytes(name, bytes));
+            made.is_opaque = hides_all(made.image->rgba);
+        }
+        return made;
+    });
 }
 
-void BakedPictures::add_triangle(std::uint32_t picture, const std::array<glm::vec2, 3>& places) {
-    triangles_.push_back({is_good(places) ? picture : none, places});
+void BakedPictures::add_triangle(const PolygonPicture& picture, const std::array<glm::vec2, 3>& places) {
+    triangles_.push_back({is_good(places) ? picture.picture : none, picture.alpha == TextureAlpha::Opaque, places});
+}
+
+Material BakedPictures::shown_on(Material material, const PolygonPicture& shown) const {
+    const Picture& picture = pictures_[shown.picture];
+    if (!picture.bytes || material.picture.empty()) { material.picture = picture.name; }
+    material.picture_bytes = picture.bytes;
+    const bool is_opaque = picture.is_opaque || shown.alpha == TextureAlpha::Opaque;
+    material.texture = {picture.texture, shown.wrap_u, shown.wrap_v,
+        is_opaque ? TextureAlpha::Opaque : TextureAlpha::Mask, shown.threshold};
+    return material;
+}
+
+PictureView BakedPictures::view_of(const TexturedTriangle& triangle) const {
+    const Picture& picture = pictures_[triangle.picture];
+    if (picture.texture) {
+        const TextureLevel& finest = picture.texture->levels.front();
+        return {finest.width, finest.height, finest.rgba, triangle.ignores_alpha};
+    }
+    return {picture.image->width, picture.image->height, picture.image->rgba, triangle.ignores_alpha};
 }
 
 std::vector<BakedPictures::Cover> BakedPictures::covers() const {
@@ -164,12 +188,12 @@ std::vector<BakedPictures::Cover> BakedPictures::covers() const {
     std::vector<Cover> found;
     for (const TexturedTriangle& triangle : triangles_) {
         Cover& cover = found.emplace_back();
-        if (triangle.picture == none || is_opaque_[triangle.picture]) { continue; }
+        if (triangle.picture == none || triangle.ignores_alpha || pictures_[triangle.picture].is_opaque) { continue; }
         double sum = 0.0;
         double least = 1.0;
         double most = 0.0;
         const int samples = for_each_sample(
-            *pictures_[triangle.picture], triangle.places, [&](const glm::dvec3&, const glm::dvec3&, double there) {
+            view_of(triangle), triangle.places, [&](const glm::dvec3&, const glm::dvec3&, double there) {
                 sum += there;
                 least = std::min(least, there);
                 most = std::max(most, there);
@@ -198,7 +222,7 @@ void BakedPictures::bake(TriangleMesh& mesh) const {
         if (triangles_[t].picture == none) {
             for (Sum* sum : at) { sum->add(own, area / 6.0); }
         } else {
-            add_picture(*pictures_[triangles_[t].picture], triangles_[t].places, own, area, at);
+            add_picture(view_of(triangles_[t]), triangles_[t].places, own, area, at);
         }
     }
     mesh.colours.assign(mesh.vertices_m.size(), Material().colour);
@@ -230,7 +254,7 @@ bool is_glass(const BakedPictures::Cover& cover) {
 } // namespace
 
 MeshBuilder::MeshBuilder(const std::filesystem::path& path, const ReadOptions& options)
-    : path_(path), options_(options), pictures_(path, options.pictures_in) {
+    : path_(path), options_(options), pictures_(path, options) {
     mesh_.name = path.stem().string();
 }
 
@@ -277,10 +301,25 @@ std::uint32_t MeshBuilder::face_colour_material(const glm::vec3& colour) {
     return at->second;
 }
 
-void MeshBuilder::add_polygon(std::span<const CornerIndices> corners, std::uint32_t material, std::uint32_t picture) {
+/// The material of triangles that the file gives this material and this picture.
+std::uint32_t MeshBuilder::shown_material(std::uint32_t material, const PolygonPicture& picture) {
+    if (!options_.textures || picture.picture == BakedPictures::none) { return material; }
+    const auto [at, is_new] = shown_materials_.try_emplace({material, picture}, invalid_index);
+    if (is_new) {
+        Material own = material == invalid_index ? Material{.name = "picture", .colour = glm::vec3(1.0F)}
+                                                 : mesh_.materials[material];
+        const float opacity = material == invalid_index ? 1.0F : opacities_[material];
+        at->second = add_material(pictures_.shown_on(std::move(own), picture), opacity);
+    }
+    return at->second;
+}
+
+void MeshBuilder::add_polygon(
+    std::span<const CornerIndices> corners, std::uint32_t material, const PolygonPicture& picture) {
     assert(corners.size() >= 3 && corners.size() <= max_polygon_corners);
+    const std::uint32_t shown = shown_material(material, picture);
     const auto add = [&](const std::array<CornerIndices, 3>& triangle) {
-        add_triangle(triangle, material);
+        add_triangle(triangle, shown);
         if (options_.pictures) {
             pictures_.add_triangle(
                 picture, {on_picture(triangle[0]), on_picture(triangle[1]), on_picture(triangle[2])});
@@ -324,7 +363,15 @@ void MeshBuilder::finish_part() {
     finish_materials();
     leave_out_transparent();
     bake_pictures();
+    if (is_clear_) { blend_textures(); }
     finish_backs();
+}
+
+/// The alpha of pictures on transparent surfaces is the share that they cover.
+void MeshBuilder::blend_textures() {
+    for (Material& material : mesh_.materials) {
+        if (material.texture.alpha == TextureAlpha::Mask) { material.texture.alpha = TextureAlpha::Blend; }
+    }
 }
 
 float MeshBuilder::opacity_of(std::size_t triangle) const {
@@ -347,7 +394,7 @@ void MeshBuilder::drop_invisible() {
 
 /// Returns a finished mesh of the triangles for which `is_kept(index)` is true.
 template <typename Kept>
-TriangleMesh MeshBuilder::part_of(const Kept& is_kept, std::vector<std::string>& notes) const {
+TriangleMesh MeshBuilder::part_of(const Kept& is_kept, std::vector<std::string>& notes, bool is_clear) const {
     std::vector<bool> gone;
     for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) { gone.push_back(!is_kept(t)); }
     if (std::ranges::find(gone, false) == gone.end()) { return {}; }
@@ -355,6 +402,7 @@ TriangleMesh MeshBuilder::part_of(const Kept& is_kept, std::vector<std::string>&
     part.mesh_.notes.clear();
     part.take_out(gone);
     part.is_part_ = true;
+    part.is_clear_ = is_clear;
     part.finish_part();
     erase_unused_vertices(part.mesh_);
     for (std::string& note : std::exchange(part.mesh_.notes, {})) {
@@ -375,19 +423,28 @@ MeshParts MeshBuilder::finish_parts() {
         parts.groups.push_back(
             part_of([&](std::size_t t) { return groups_[t] == group && !is_transparent(t); }, notes));
     }
-    parts.clear.mesh = part_of([&](std::size_t t) { return is_transparent(t); }, notes);
-    double sum = 0.0;
-    std::size_t count = 0;
-    for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
-        if (is_transparent(t)) {
-            sum += static_cast<double>(opacity_of(t));
-            ++count;
-        }
-    }
-    parts.clear.opacity = count == 0 ? 1.0F : static_cast<float>(sum / static_cast<double>(count));
+    parts.clear.mesh = part_of([&](std::size_t t) { return is_transparent(t); }, notes, true);
+    parts.clear.opacity = opacity_of_transparent();
     parts.body.name = path_.stem().string();
     parts.body.notes = std::move(notes);
     return parts;
+}
+
+/// The mean over all transparent triangles. Where textures are kept the alpha of pictures is not part of it.
+float MeshBuilder::opacity_of_transparent() const {
+    constexpr double nearly_opaque = 0.998; // an opacity of 1 would say that nothing is blended
+    double sum = 0.0;
+    std::size_t count = 0;
+    for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
+        if (!is_transparent(t)) { continue; }
+        const std::uint32_t material = mesh_.triangle_materials[t];
+        const bool is_textured = material != invalid_index && mesh_.materials[material].texture.picture != nullptr;
+        sum += static_cast<double>(is_textured ? opacities_[material] : opacity_of(t));
+        ++count;
+    }
+    if (count == 0) { return 1.0F; }
+    const double mean = sum / static_cast<double>(count);
+    return static_cast<float>(options_.textures ? std::min(mean, nearly_opaque) : mean);
 }
 
 void MeshBuilder::take_out(const std::vector<bool>& gone) {
@@ -416,7 +473,9 @@ void MeshBuilder::leave_out_transparent() {
     find_opacities();
     std::vector<bool> gone;
     for (const BakedPictures::Cover& cover : covers_) {
-        gone.push_back(cover.opacity < mostly_there && !(is_part_ && is_glass(cover)));
+        const bool is_hole = cover.opacity < mostly_there && !(is_part_ && is_glass(cover));
+        const bool is_drawn_with_holes = options_.textures && !cover.is_uniform && cover.opacity >= glass_from;
+        gone.push_back(is_hole && !is_drawn_with_holes);
     }
     const auto count = static_cast<std::size_t>(std::ranges::count(gone, true));
     const bool is_all = count == gone.size();

@@ -2,13 +2,16 @@
 
 #include "models/heights/image.h"
 #include "models/meshfile/mesh_parts.h"
+#include "models/meshfile/picture_path.h"
 #include "models/meshfile/smooth_normals.h"
+#include "models/meshfile/texture_store.h"
 #include "models/triangle_mesh.h"
 
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
 #include <array>
+#include <compare>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -23,29 +26,43 @@
 
 namespace octant::models::meshfile {
 
-/// Returns the path of a texture picture that a mesh names. Searches for the whole name, then for its last component,
-/// in `folder` (empty: not searched) and in the mesh's folder; returns a path in the mesh's folder if no file exists.
-std::filesystem::path picture_file(
-    const std::filesystem::path& mesh_file, const std::string& name, const std::filesystem::path& folder = {});
-
-/// The text with ASCII letters in lower case.
-std::string lower_case(std::string text);
-
 /// Whether a name in lower case says that an object represents a shadow on the ground.
 bool names_shadow(std::string_view lower_name);
 
 /// The first part of a colour outside 0..1 (also NaN); nothing for a valid colour.
 std::optional<double> colour_fault(const glm::dvec3& colour);
 
+/// The picture of a polygon, and how the file says that it lies there.
+struct PolygonPicture {
+    /// The index of no picture.
+    static constexpr std::uint32_t none = ~std::uint32_t{0};
+
+    std::uint32_t picture = none; ///< index into BakedPictures
+    TextureWrap wrap_u = TextureWrap::Repeat;
+    TextureWrap wrap_v = TextureWrap::Repeat;
+    /// Nothing: the file does not say what alpha does. Then the picture decides.
+    std::optional<TextureAlpha> alpha = {};
+    float threshold = 0.5F;
+
+    auto operator<=>(const PolygonPicture&) const = default;
+};
+
+/// The pixels of a picture, four bytes each, row after row from the top; they stay with their owner.
+struct PictureView {
+    int width = 0;
+    int height = 0;
+    std::span<const std::uint8_t> rgba;
+    bool ignores_alpha = false; ///< all pixels count as opaque
+};
+
 /// The texture pictures of a mesh, and the vertex colours computed from them.
 class BakedPictures {
 public:
     /// The index of no picture.
-    static constexpr std::uint32_t none = ~std::uint32_t{0};
+    static constexpr std::uint32_t none = PolygonPicture::none;
 
-    /// `folder` is searched for pictures before the mesh's own folder; empty: only that one.
-    explicit BakedPictures(std::filesystem::path mesh_file, std::filesystem::path folder = {})
-        : mesh_file_(std::move(mesh_file)), folder_(std::move(folder)) {}
+    /// `options` say where pictures are looked for and what is kept of them.
+    BakedPictures(std::filesystem::path mesh_file, const ReadOptions& options);
 
     /// Loads a picture by its name as picture_file finds it. Returns its index; `none` if it cannot be read.
     std::uint32_t picture(const std::string& name);
@@ -55,7 +72,7 @@ public:
 
     /// Adds the next triangle of the mesh: its picture or `none`, and the positions of its corners in the picture, 0..1
     /// from the upper left corner. The picture repeats outside 0..1.
-    void add_triangle(std::uint32_t picture, const std::array<glm::vec2, 3>& places);
+    void add_triangle(const PolygonPicture& picture, const std::array<glm::vec2, 3>& places);
 
     /// The opacity of a picture over a triangle.
     struct Cover {
@@ -75,22 +92,36 @@ public:
     /// colour alone. Vertices at one position get one colour. The mesh's triangles must be those added.
     void bake(TriangleMesh& mesh) const;
 
+    /// A material with this picture in place of its own: its file or bytes, and its texture.
+    Material shown_on(Material material, const PolygonPicture& shown) const;
+
     /// One line for each picture that could not be used.
     const std::vector<std::string>& notes() const { return notes_; }
 
 private:
+    /// A decoded picture: as an image or, where textures are kept, as a texture. Copies share it.
+    struct Picture {
+        std::shared_ptr<const heights::Image> image;
+        std::shared_ptr<const TexturePicture> texture;
+        std::string name; ///< its file, or the name of one inside the mesh's file
+        std::shared_ptr<const std::string> bytes;
+        bool is_opaque = true;
+    };
+
     struct TexturedTriangle {
         std::uint32_t picture = none;
+        bool ignores_alpha = false;
         std::array<glm::vec2, 3> places{};
     };
 
     template <typename Read>
     std::uint32_t kept(const std::string& name, Read&& read);
+    PictureView view_of(const TexturedTriangle& triangle) const;
 
     std::filesystem::path mesh_file_;
     std::filesystem::path folder_;
-    std::vector<std::shared_ptr<const heights::Image>> pictures_; ///< copies share them
-    std::vector<bool> is_opaque_;                                 ///< for each picture: it has no transparent pixel
+    std::shared_ptr<TextureStore> store_; ///< null: textures are not kept
+    std::vector<Picture> pictures_;
     std::map<std::string, std::uint32_t> known_;
     std::vector<TexturedTriangle> triangles_;
     std::vector<std::string> notes_;
@@ -111,6 +142,8 @@ public:
     explicit MeshBuilder(const std::filesystem::path& path, const ReadOptions& options = {});
 
     bool uses_pictures() const { return options_.pictures; }
+
+    const ReadOptions& options() const { return options_; }
 
     bool adds_back_faces() const { return options_.backs; }
 
@@ -154,10 +187,9 @@ public:
     /// Sets the group (index into ReadOptions::groups) of the polygons added next; invalid_index: none.
     void set_group(std::uint32_t group) { group_ = group; }
 
-    /// Cuts a polygon into triangles (polygons::triangulate_polygon) and adds them. `picture` is an index of
-    /// pictures().
+    /// Cuts a polygon into triangles (polygons::triangulate_polygon) and adds them.
     void add_polygon(std::span<const CornerIndices> corners, std::uint32_t material = invalid_index,
-        std::uint32_t picture = BakedPictures::none);
+        const PolygonPicture& picture = {});
 
     void add_note(std::string note) { mesh_.notes.push_back(std::move(note)); }
 
@@ -173,10 +205,13 @@ private:
     void drop_invisible();
     void find_opacities();
     template <typename Kept>
-    TriangleMesh part_of(const Kept& is_kept, std::vector<std::string>& notes) const;
+    TriangleMesh part_of(const Kept& is_kept, std::vector<std::string>& notes, bool is_clear = false) const;
+    float opacity_of_transparent() const;
     void finish_part();
     void take_out(const std::vector<bool>& gone);
     void add_triangle(const std::array<CornerIndices, 3>& corners, std::uint32_t material);
+    std::uint32_t shown_material(std::uint32_t material, const PolygonPicture& picture);
+    void blend_textures();
     void leave_out_transparent();
     void bake_pictures();
     void finish_backs();
@@ -191,6 +226,8 @@ private:
     TriangleMesh mesh_;
     std::vector<bool> faulty_normals_;
     std::map<std::array<float, 3>, std::uint32_t> face_colours_;
+    /// Materials with pictures, by the material that the file names and the picture on it.
+    std::map<std::pair<std::uint32_t, PolygonPicture>, std::uint32_t> shown_materials_;
     std::vector<glm::dvec3> places_m_;         ///< corners of the polygon being added
     std::vector<float> opacities_;             ///< one for each material
     std::vector<bool> two_sided_;              ///< one for each triangle
@@ -200,7 +237,8 @@ private:
     Smoothing smoothing_;
     std::uint32_t group_ = invalid_index;
     bool is_two_sided_ = false;
-    bool is_part_ = false; ///< this builds a part of a larger mesh
+    bool is_part_ = false;  ///< this builds a part of a larger mesh
+    bool is_clear_ = false; ///< that of its transparent surfaces
     bool has_normals_ = false;
     bool has_texture_coordinates_ = false;
     bool has_materials_ = false;

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
 #include <fmt/format.h>
 #include <fstream>
@@ -16,6 +17,7 @@
 #include <memory>
 #include <set>
 #include <string_view>
+#include <system_error>
 #include <vector>
 
 namespace octant::models::meshfile {
@@ -69,16 +71,27 @@ namespace {
 TriangleMesh with_named_pictures(const std::filesystem::path& path, const TriangleMesh& mesh) {
     TriangleMesh named = mesh;
     const std::filesystem::path folder = std::filesystem::absolute(path).parent_path();
+    const auto from_folder = [&](const std::string& file) {
+        return std::filesystem::absolute(file)
+            .lexically_normal()
+            .lexically_proximate(folder.lexically_normal())
+            .string();
+    };
     for (Material& material : named.materials) {
         if (material.picture_bytes) {
-            material.picture = fmt::format("{}-{}.{}", path.stem().string(), material.picture,
-                material.picture_bytes->starts_with("\x89PNG") ? "png" : "jpg");
+            std::string own = material.picture;
+            std::ranges::replace_if(
+                own, [](unsigned char c) { return std::isalnum(c) == 0 && c != '-' && c != '_'; }, '-');
+            material.picture = fmt::format(
+                "{}-{}.{}", path.stem().string(), own, material.picture_bytes->starts_with("\x89PNG") ? "png" : "jpg");
             write_file(folder / material.picture, *material.picture_bytes);
         } else if (!material.picture.empty()) {
-            material.picture = std::filesystem::absolute(material.picture)
-                                   .lexically_normal()
-                                   .lexically_proximate(folder.lexically_normal())
-                                   .string();
+            material.picture = from_folder(material.picture);
+        }
+        if (std::error_code ignored; std::filesystem::is_regular_file(material.emissive_picture, ignored)) {
+            material.emissive_picture = from_folder(material.emissive_picture);
+        } else {
+            material.emissive_picture.clear(); // inside the file that was read
         }
     }
     return named;
@@ -104,18 +117,6 @@ void write_one_file(const std::filesystem::path& path, const TriangleMesh& mesh)
 
 void write_ac3d_mesh(const std::filesystem::path& path, const TriangleMesh& mesh) {
     write_file(path, ac3d_text(has_pictures(mesh) ? with_named_pictures(path, mesh) : mesh));
-}
-
-/// The encoded picture of a material, from its file where it stands in one; null where it has none that can be read.
-std::shared_ptr<const std::string> picture_bytes_of(const Material& material) {
-    std::error_code ignored;
-    constexpr std::size_t largest_bytes = std::size_t{256} << 20U;
-    if (material.picture_bytes || material.picture.empty() ||
-        !std::filesystem::is_regular_file(material.picture, ignored) ||
-        std::filesystem::file_size(material.picture, ignored) > largest_bytes) {
-        return material.picture_bytes;
-    }
-    return std::make_shared<const std::string>(read_file(material.picture, largest_bytes));
 }
 
 template <std::string (*bytes_of)(const TriangleMesh&)>
@@ -214,6 +215,17 @@ const Format& format_of(const std::filesystem::path& path) {
 }
 
 } // namespace
+
+std::shared_ptr<const std::string> picture_bytes_of(const Material& material) {
+    std::error_code ignored;
+    constexpr std::size_t largest_bytes = std::size_t{256} << 20U;
+    if (material.picture_bytes || material.picture.empty() ||
+        !std::filesystem::is_regular_file(material.picture, ignored) ||
+        std::filesystem::file_size(material.picture, ignored) > largest_bytes) {
+        return material.picture_bytes;
+    }
+    return std::make_shared<const std::string>(read_file(material.picture, largest_bytes));
+}
 
 TriangleMesh read_mesh(const std::filesystem::path& path, const ReadOptions& options) {
     const Format& format = format_of(path);

@@ -24,10 +24,10 @@ namespace octant::models::meshfile {
 /// and units are those of the file. Integer colours are scaled to 0..1. Colours are display values (models/material.h);
 /// the linear colours of glTF are converted.
 ///
-/// Texture coordinates and picture names are read from .obj, .ac and glTF files, texture coordinates alone from .ply
-/// and .off, pictures only if `options` ask for them. Ignored: lines, points, attributes that TriangleMesh does not
-/// have, texture coordinates of VRML, normals of STL, nodes of unknown types, and the back of two-sided surfaces unless
-/// `options` ask for it. TriangleMesh::notes lists what was left out. A zero normal is replaced by the triangle's own.
+/// Texture coordinates and picture names are read from .obj, .ac, .wrl and glTF files, texture coordinates alone from
+/// .ply and .off, pictures only if `options` ask for them. Ignored: lines, points, attributes that TriangleMesh does
+/// not have, normals of STL, nodes of unknown types, and the back of two-sided surfaces unless `options` ask for it.
+/// TriangleMesh::notes lists what was left out. A zero normal is replaced by the triangle's own.
 ///
 /// Throws Error "file:line: expected ..., got ..." (binary files "file: at byte N: ...", glTF "file: nodes[3].mesh:
 /// ..."), also for a file without triangles. Memory is bounded by the file's size (16 to 30 times for JSON and VRML): a

@@ -5,6 +5,7 @@
 #include "models/triangle_mesh.h"
 
 #include <filesystem>
+#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
@@ -58,6 +59,9 @@ std::string stl_bytes(const TriangleMesh& mesh);
 /// The origin of the coordinates in a glTF file, the translation of its node: 0 where the bounding box is near it, else
 /// a point in the middle of the box with coordinates in float, so that coordinates lose fewer digits.
 glm::dvec3 gltf_origin_m(const BoundingBox& bounds);
+
+/// The encoded picture of a material, from its file where it stands in one; null where it has none that can be read.
+std::shared_ptr<const std::string> picture_bytes_of(const Material& material);
 
 /// Whether the bytes are of a picture that glTF files may hold: PNG or JPEG.
 bool is_gltf_picture(std::string_view bytes);

@@ -5,18 +5,25 @@
 
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <set>
 #include <string>
 #include <vector>
 
 namespace octant::models::meshfile {
 
+class TextureStore;
+
 /// Options of read_mesh, read_parts and read_rotating_model.
 struct ReadOptions {
-    /// Reads the texture pictures of .ac, .obj and glTF files and computes vertex colours from them: the mean around
-    /// each vertex times the material colour. Not for meshes with vertex colours. Leaves out triangles whose picture is
-    /// mostly transparent (ground shadows, turning propellers, clear glass), unless all triangles are.
+    /// Reads the texture pictures of .ac, .obj, .wrl and glTF files and computes vertex colours from them: the mean
+    /// around each vertex times the material colour. Not for meshes with vertex colours. Leaves out triangles whose
+    /// picture is mostly transparent (ground shadows, turning propellers, clear glass), unless all triangles are.
     bool pictures = false;
+    /// Keeps the pictures of surfaces for drawing (Material::texture): a material for each picture that lies on its
+    /// triangles, and texture coordinates. Needs `pictures`. Triangles with holes in their picture stay then, and
+    /// surfaces are transparent only where both material and picture are counted. Null: materials have no textures.
+    std::shared_ptr<TextureStore> textures = {};
     /// Folder searched for pictures before the mesh's own folder; empty: only that one.
     std::filesystem::path pictures_in = {};
     /// Adds back faces to two-sided sheets of .ac and glTF files (repair::add_back_faces).
@@ -29,6 +36,8 @@ struct ReadOptions {
     /// Transforms of .ac objects and their children, by object name; axes of the file. A child's own transform is
     /// applied before its parent's.
     std::map<std::string, AffineTransform> moved = {};
+    /// Pictures of .ac objects and their children in place of those that they name, by object name; "" = of all others.
+    std::map<std::string, std::string> repainted = {};
     /// Groups of .ac objects, by name and with their children, that read_parts returns as separate meshes. The
     /// outermost of nested objects and the first of several groups decide.
     std::vector<std::set<std::string>> groups = {};

@@ -48,7 +48,7 @@ private:
         } else if (keyword == "usemtl") {
             material_name_ = std::string(text_.rest_of_line());
             material_ = invalid_index;
-            picture_ = BakedPictures::none;
+            picture_ = {};
         } else if (keyword == "mtllib") {
             take_material_files(text_.words());
         }
@@ -135,11 +135,12 @@ private:
         mesh_.add_polygon(corners_, used, picture_);
     }
 
-    /// Of the materials that have one; BakedPictures::none for the others.
-    std::uint32_t picture_of(const std::string& material) {
-        const auto named = picture_names_.find(material);
-        return named == picture_names_.end() || !mesh_.uses_pictures() ? BakedPictures::none
-                                                                       : mesh_.pictures().picture(named->second);
+    /// Of the materials that have one.
+    PolygonPicture picture_of(const std::string& material) {
+        const auto named = pictures_.find(material);
+        if (named == pictures_.end() || !mesh_.uses_pictures()) { return {}; }
+        const TextureWrap wrap = named->second.is_clamped ? TextureWrap::Clamp : TextureWrap::Repeat;
+        return {.picture = mesh_.pictures().picture(named->second.file), .wrap_u = wrap, .wrap_v = wrap};
     }
 
     /// Of the polygons from here on; materials come in the order of their first polygon.
@@ -151,11 +152,14 @@ private:
         const auto known = colours_.find(*material_name_);
         Material made{.name = *material_name_};
         if (known != colours_.end()) { made.colour = known->second; }
-        if (picture_ != BakedPictures::none && made.colour == glm::vec3(0.0F)) {
+        if (picture_.picture != BakedPictures::none && made.colour == glm::vec3(0.0F)) {
             made.colour = glm::vec3(1.0F); // written by programs that mean the picture alone
         }
-        if (const auto named = picture_names_.find(*material_name_); named != picture_names_.end()) {
-            made.picture = picture_file(path_, named->second);
+        if (const auto named = pictures_.find(*material_name_); named != pictures_.end()) {
+            made.picture = picture_file(path_, named->second.file);
+        }
+        if (const auto named = emissive_pictures_.find(*material_name_); named != emissive_pictures_.end()) {
+            made.emissive_picture = picture_file(path_, named->second);
         }
         const auto opacity = opacities_.find(*material_name_);
         material_ = mesh_.add_material(made, opacity == opacities_.end() ? 1.0F : opacity->second);
@@ -178,7 +182,13 @@ private:
         const polygons::MtlFile read = polygons::read_mtl(file);
         for (const Material& material : read.materials) { colours_.insert_or_assign(material.name, material.colour); }
         for (const auto& [material, opacity] : read.opacities) { opacities_.insert_or_assign(material, opacity); }
-        for (const auto& [material, picture] : read.pictures) { picture_names_.insert_or_assign(material, picture); }
+        for (const auto& [material, picture] : read.pictures) {
+            pictures_.insert_or_assign(material, picture);
+            if (picture.is_moved) { moved_.emplace(material, file); }
+        }
+        for (const auto& [material, picture] : read.emissive_pictures) {
+            emissive_pictures_.insert_or_assign(material, picture);
+        }
         return true;
     }
 
@@ -186,6 +196,10 @@ private:
         for (const auto& [name, line] : missing_) {
             mesh_.add_note(fmt::format("{}:{}: material file {} is missing, its materials are drawn grey",
                 path_.string(), line, printable(name)));
+        }
+        for (const auto& [material, file] : moved_) {
+            mesh_.add_note(fmt::format("{}: the options -o, -s and -t of the picture of material {} are not read",
+                file.string(), printable(material)));
         }
     }
 
@@ -196,10 +210,12 @@ private:
     std::uint32_t material_ = invalid_index; ///< of material_name_, once a polygon has it
     std::map<std::string, std::uint32_t> materials_;
     std::map<std::string, glm::vec3> colours_;
-    std::map<std::string, float> opacities_;           ///< of materials that are not opaque
-    std::map<std::string, std::string> picture_names_; ///< of materials
-    std::uint32_t picture_ = BakedPictures::none;      ///< of material_name_
-    std::map<std::string, int> missing_;               ///< with the line that names them first
+    std::map<std::string, float> opacities_;               ///< of materials that are not opaque
+    std::map<std::string, polygons::MtlPicture> pictures_; ///< of materials
+    std::map<std::string, std::string> emissive_pictures_; ///< of materials
+    std::map<std::string, std::filesystem::path> moved_;   ///< materials whose picture has such options
+    PolygonPicture picture_;                               ///< of material_name_
+    std::map<std::string, int> missing_;                   ///< with the line that names them first
     std::vector<CornerIndices> corners_;
 };
 
@@ -217,7 +233,13 @@ std::string mtl_text(const TriangleMesh& mesh, const std::vector<std::string>& n
     for (std::size_t m = 0; m < names.size(); ++m) {
         const glm::vec3& colour = mesh.materials[m].colour;
         text += fmt::format("newmtl {}\nKd {} {} {}\n", names[m], colour.x, colour.y, colour.z);
-        if (!mesh.materials[m].picture.empty()) { text += fmt::format("map_Kd {}\n", mesh.materials[m].picture); }
+        const Material& material = mesh.materials[m];
+        const bool is_clamped =
+            material.texture.wrap_u == TextureWrap::Clamp && material.texture.wrap_v == TextureWrap::Clamp;
+        if (!material.picture.empty()) {
+            text += fmt::format("map_Kd {}{}\n", is_clamped ? "-clamp on " : "", material.picture);
+        }
+        if (!material.emissive_picture.empty()) { text += fmt::format("map_Ke {}\n", material.emissive_picture); }
     }
     return text;
 }

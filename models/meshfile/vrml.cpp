@@ -252,6 +252,30 @@ public:
         return found;
     }
 
+    /// Pairs of the list `name` of the node in a field of another node; none without either.
+    std::vector<glm::dvec2> pairs(const VrmlNode& set, std::string_view field_name, std::string_view name) const {
+        std::vector<glm::dvec2> found;
+        const VrmlNode* node = only_node(set, field_name);
+        const VrmlField* field = node == nullptr ? nullptr : node->field(name);
+        if (field == nullptr) { return found; }
+        TextScanner words(path_, field->text, vrml_rules, field->line);
+        while (!words.peek().empty()) {
+            const double x = words.number("a number");
+            const double y = words.number("a number");
+            found.emplace_back(x, y);
+        }
+        return found;
+    }
+
+    /// The first text in quotes of a field; empty without.
+    static std::string first_text(const VrmlNode& node, std::string_view name) {
+        const VrmlField* field = node.field(name);
+        const std::size_t open = field == nullptr ? std::string_view::npos : field->text.find('"');
+        const std::size_t close = open == std::string_view::npos ? open : field->text.find('"', open + 1);
+        return close == std::string_view::npos ? std::string()
+                                               : std::string(field->text.substr(open + 1, close - open - 1));
+    }
+
     /// The value of a field; true where the node has no such field.
     bool flag(const VrmlNode& node, std::string_view name) const {
         const VrmlField* field = node.field(name);
@@ -323,7 +347,11 @@ struct FaceSet {
     std::vector<long> corners;
     std::vector<long> colour_indices;
     std::vector<long> normal_indices;
+    std::vector<long> texture_indices;
     std::vector<glm::dvec3> colours;
+    std::size_t textures = 0;        ///< texture coordinates
+    std::uint32_t first_texture = 0; ///< of the mesh's
+    PolygonPicture picture;
     std::size_t normals = 0;
     std::uint32_t first_normal = 0; ///< of the mesh's
     bool colour_per_vertex = true;
@@ -334,15 +362,15 @@ struct FaceSet {
 
 class VrmlReading {
 public:
-    VrmlReading(const std::filesystem::path& path, std::string_view text)
-        : path_(path), file_(read_vrml_nodes(path_, text)), fields_(path_, file_), mesh_(path),
+    VrmlReading(const std::filesystem::path& path, std::string_view text, const ReadOptions& options)
+        : path_(path), file_(read_vrml_nodes(path_, text)), fields_(path_, file_), mesh_(path, options),
           used_materials_(file_.nodes.size(), invalid_index) {}
 
     MeshBuilder read() {
         for (const std::uint32_t root : file_.roots) { visit(root, {}, 0, 0); }
         if (file_.has_prototypes) { mesh_.add_note(fmt::format("{}: prototypes are not read", path_.string())); }
-        if (has_textures_) {
-            mesh_.add_note(fmt::format("{}: texture coordinates and pictures are not read", path_.string()));
+        if (has_moved_textures_) {
+            mesh_.add_note(fmt::format("{}: transforms of texture coordinates are not read", path_.string()));
         }
         return std::move(mesh_);
     }
@@ -393,7 +421,6 @@ private:
         const VrmlNode* set = fields_.only_node(shape, "geometry");
         const VrmlNode* coord = set == nullptr ? nullptr : fields_.only_node(*set, "coord");
         if (coord == nullptr || set->type != "IndexedFaceSet") { return; }
-        has_textures_ = has_textures_ || set->field("texCoord") != nullptr;
         FaceSet faces;
         faces.corners = fields_.indices(*set, "coordIndex");
         count_numbers(faces.corners.size(), set->line);
@@ -410,8 +437,15 @@ private:
             mesh_.add_normal(placement.normal(normal));
             ++faces.normals;
         }
+        faces.texture_indices = fields_.indices(*set, "texCoordIndex");
+        faces.first_texture = static_cast<std::uint32_t>(mesh_.texture_coordinates_count());
+        for (const glm::dvec2& place : fields_.pairs(*set, "texCoord", "point")) {
+            mesh_.add_texture_coordinates(glm::vec2(place));
+            ++faces.textures;
+        }
         take_points(*set, *coord, placement, group);
-        take_faces(faces, material_of(shape));
+        const std::uint32_t material = faces.textures > 0 ? pictured_material_of(shape, faces.picture) : invalid_index;
+        take_faces(faces, material == invalid_index ? material_of(shape) : material);
     }
 
     /// What a node holds counts each time that it is met.
@@ -446,6 +480,29 @@ private:
         if (const auto fault = colour_fault(colour)) {
             refuse(line, "colours of numbers 0..1", fmt::format("{}", *fault));
         }
+    }
+
+    /// The material of a shape on which a picture lies, whose colours VRML takes in place of the material's, and the
+    /// picture where pictures are read; invalid_index where the shape has none.
+    std::uint32_t pictured_material_of(const VrmlNode& shape, PolygonPicture& picture) {
+        const VrmlNode* appearance = fields_.only_node(shape, "appearance");
+        const VrmlNode* texture = appearance == nullptr ? nullptr : fields_.only_node(*appearance, "texture");
+        if (texture == nullptr || texture->type != "ImageTexture") { return invalid_index; }
+        has_moved_textures_ = has_moved_textures_ || appearance->field("textureTransform") != nullptr;
+        const std::string file = VrmlFields::first_text(*texture, "url");
+        if (file.empty()) { return invalid_index; }
+        if (mesh_.uses_pictures()) {
+            picture.picture = mesh_.pictures().picture(file);
+            picture.wrap_u = fields_.flag(*texture, "repeatS") ? TextureWrap::Repeat : TextureWrap::Clamp;
+            picture.wrap_v = fields_.flag(*texture, "repeatT") ? TextureWrap::Repeat : TextureWrap::Clamp;
+            if (picture.picture == PolygonPicture::none) { return invalid_index; }
+        }
+        const auto [at, is_new] = pictured_materials_.try_emplace(file, invalid_index);
+        if (is_new) {
+            at->second = mesh_.add_material(
+                {.name = "picture", .colour = glm::vec3(1.0F), .picture = picture_file(path_, file).string()});
+        }
+        return at->second;
     }
 
     std::uint32_t material_of(const VrmlNode& shape) {
@@ -506,6 +563,10 @@ private:
                     faces.first_normal + static_cast<std::uint32_t>(attribute(faces, faces.normal_indices,
                                              faces.normal_per_vertex, face, corner, faces.normals, "a normal"));
             }
+            if (faces.textures > 0) {
+                made.texture = faces.first_texture + static_cast<std::uint32_t>(attribute(faces, faces.texture_indices,
+                                                         true, face, corner, faces.textures, "a texture coordinate"));
+            }
             polygon_.push_back(made);
         }
         if (!faces.counter_clockwise) { std::ranges::reverse(polygon_); }
@@ -513,7 +574,7 @@ private:
             material = mesh_.face_colour_material(glm::vec3(faces.colours[attribute(
                 faces, faces.colour_indices, false, face, first, faces.colours.size(), "a colour")]));
         }
-        mesh_.add_polygon(polygon_, material);
+        mesh_.add_polygon(polygon_, material, faces.picture);
     }
 
     /// The vertex itself, or for each further colour a copy of it.
@@ -545,15 +606,16 @@ private:
     std::map<std::tuple<std::uint32_t, float, float, float>, std::uint32_t> copies_;
     std::vector<CornerIndices> polygon_;
     std::size_t visits_ = 0;
-    std::size_t numbers_ = 0; ///< met so far
-    bool has_textures_ = false;
+    std::size_t numbers_ = 0;                                 ///< met so far
+    std::map<std::string, std::uint32_t> pictured_materials_; ///< by the files of their pictures
+    bool has_moved_textures_ = false;
 };
 
 } // namespace
 
-MeshBuilder read_vrml(const std::filesystem::path& path, const ReadOptions& /*options*/) {
+MeshBuilder read_vrml(const std::filesystem::path& path, const ReadOptions& options) {
     const std::string text = read_text_file(path, largest_vrml_bytes);
-    return VrmlReading(path, text).read();
+    return VrmlReading(path, text, options).read();
 }
 
 namespace {

@@ -15,6 +15,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <fmt/format.h>
+#include <limits>
 #include <map>
 #include <optional>
 #include <set>
@@ -42,9 +43,9 @@ public:
             } else if (keyword == "Kd") {
                 set_colour();
             } else if (keyword == "map_Kd" && !text_.words().empty()) {
-                const bool has_options = text_.peek().starts_with('-'); // else the name may have blanks
-                made_.pictures.emplace_back(
-                    material_, std::string(has_options ? text_.words().back() : text_.rest_of_line()));
+                made_.pictures.emplace_back(material_, picture());
+            } else if (keyword == "map_Ke" && !text_.words().empty()) {
+                made_.emissive_pictures.emplace_back(material_, picture().file);
             } else if ((keyword == "d" || keyword == "Tr") && text_.words().size() == 1) {
                 const auto value = text_.take_number();
                 if (!value || *value < 0.0 || *value > 1.0) { continue; }
@@ -61,6 +62,27 @@ public:
     }
 
 private:
+    /// What follows map_Kd: options that begin with a dash, each with its values, then a name that may have blanks.
+    MtlPicture picture() {
+        MtlPicture made;
+        const std::vector<std::string_view>& words = text_.words();
+        std::size_t at = 0;
+        while (at + 1 < words.size() && words[at].starts_with('-')) {
+            const std::string_view option = words[at++];
+            made.is_clamped = option == "-clamp" ? words[at] == "on" : made.is_clamped;
+            const bool is_vector = option == "-o" || option == "-s" || option == "-t";
+            made.is_moved = made.is_moved || is_vector;
+            const std::size_t most = is_vector ? 3 : option == "-mm" ? 2 : 1;
+            for (std::size_t k = 0; k < most && at + 1 < words.size(); ++k) {
+                if (most > 1 && !finite_number(words[at])) { break; }
+                ++at;
+            }
+        }
+        const std::string_view line = text_.rest_of_line();
+        made.file = std::string(at == 0 ? line : line.substr(static_cast<std::size_t>(words[at].data() - line.data())));
+        return made;
+    }
+
     void add_material(const std::string& name) {
         if (name.empty()) { text_.refuse("a material name after newmtl", "none"); }
         if (!names_.insert(name).second) { text_.refuse("a new material name", in_quotes(name) + " again"); }
@@ -148,9 +170,12 @@ public:
         const std::vector<Polygon> polygons = std::exchange(model_.polygons, {});
         const CornerVertices corner_vertices = std::exchange(model_.corner_vertices, {});
         const std::vector<glm::vec3> corner_normals = std::exchange(model_.corner_normals, {});
+        all_places_ = std::exchange(model_.corner_texture_coordinates, {});
         std::vector<std::uint32_t> parents;
         for (std::size_t i = 0; i < polygons.size(); ++i) {
             const auto corners = std::span(corner_vertices).subspan(polygons[i].first_corner, polygons[i].corner_count);
+            corners_ = corners;
+            first_corner_ = polygons[i].first_corner;
             for (const CornerVertices& piece : pieces_of(corners, lines_[i])) {
                 add(polygons[i], piece);
                 for (std::size_t k = 0; k < piece.size() && !corner_normals.empty(); ++k) {
@@ -242,6 +267,19 @@ private:
         polygon.corner_count = static_cast<std::uint32_t>(outline.size());
         model_.polygons.push_back(polygon);
         model_.corner_vertices.insert(model_.corner_vertices.end(), outline.begin(), outline.end());
+        for (std::size_t k = 0, from = 0; k < outline.size() && !all_places_.empty(); ++k) {
+            from = corner_of(outline[k], k == 0 ? 0 : from + 1);
+            model_.corner_texture_coordinates.push_back(all_places_[first_corner_ + from]);
+        }
+    }
+
+    /// Which corner of the file's polygon has a vertex: the first one from `from` on, else the first of all. Corners of
+    /// pieces come in the order of the polygon, begun anywhere.
+    std::size_t corner_of(std::uint32_t vertex, std::size_t from) const {
+        const auto next = std::ranges::find(
+            corners_.begin() + static_cast<std::ptrdiff_t>(std::min(from, corners_.size())), corners_.end(), vertex);
+        const auto found = next != corners_.end() ? next : std::ranges::find(corners_, vertex);
+        return static_cast<std::size_t>(found - corners_.begin());
     }
 
     PolygonModel& model_;
@@ -249,6 +287,9 @@ private:
     std::span<const int> lines_;
     double tolerance_m_;
     std::vector<glm::dvec3> places_m_; ///< corners of the polygon at hand
+    std::span<const std::uint32_t> corners_;
+    std::size_t first_corner_ = 0;      ///< of the polygon at hand, as the file has it
+    std::vector<glm::vec2> all_places_; ///< texture coordinates of all corners of the file, or none
     std::size_t changed_polygons_ = 0;
 };
 
@@ -301,18 +342,19 @@ private:
 
 class ObjReading {
 public:
-    ObjReading(const std::filesystem::path& path, std::string_view text, const FileAxes& axes)
-        : path_(path), text_(path, text, {.joins_lines = true}), axes_(axes) {
+    ObjReading(const std::filesystem::path& path, std::string_view text, const FileAxes& axes, bool textures)
+        : path_(path), text_(path, text, {.joins_lines = true}), axes_(axes), reads_textures_(textures) {
         model_.name = path.stem().string();
     }
 
     PolygonModel read() {
         while (text_.next_line()) { take(); }
         if (model_.polygons.empty()) { throw_error_in(path_, "expected at least one polygon (f), got none"); }
+        resolve_materials();
+        drop_unused_places();
         finish_normals();
         triangulate_faulty_polygons(model_, path_, polygon_lines_);
         model_.parts = parts_.names();
-        resolve_materials();
         resolve_pivots();
         return std::move(model_);
     }
@@ -334,6 +376,10 @@ private:
             const std::string_view word = text_.word_or_end();
             const auto number = whole_number(word);
             smoothing_group_ = word == "off" || number == 0L ? flat_group : std::max(number.value_or(1), 1L);
+        } else if (keyword == "vt" && reads_textures_) {
+            const double u = finite_number(text_.word_or_end()).value_or(0.0);
+            const double v = finite_number(text_.word_or_end()).value_or(0.0);
+            places_.emplace_back(static_cast<float>(u), static_cast<float>(v));
         } else if (keyword == "g" || keyword == "o") {
             const std::string_view name = text_.rest_of_line();
             part_ = name.empty() ? "default" : std::string(name);
@@ -442,6 +488,31 @@ private:
         }
     }
 
+    /// Texture coordinates of a corner written as 7/1 or 7/1/3; not numbers where it has none that are there.
+    glm::vec2 place_of(std::string_view corner) const {
+        constexpr float no_number = std::numeric_limits<float>::quiet_NaN();
+        const auto fields = split_fields(corner, '/');
+        const auto index = fields.size() < 2 ? std::nullopt : whole_number(fields[1]);
+        const long count = static_cast<long>(places_.size());
+        if (!index || *index == 0 || *index > count || *index < -count) { return glm::vec2(no_number); }
+        return places_[static_cast<std::size_t>(*index > 0 ? *index - 1 : count + *index)];
+    }
+
+    /// Texture coordinates of polygons that show no picture, and of those that have some at a part of their corners.
+    void drop_unused_places() {
+        bool is_any_left = false;
+        for (const Polygon& polygon : model_.polygons) {
+            if (!reads_textures_) { break; }
+            const auto places =
+                std::span(model_.corner_texture_coordinates).subspan(polygon.first_corner, polygon.corner_count);
+            const bool is_whole = !model_.materials[polygon.material].picture.empty() &&
+                                  std::ranges::none_of(places, [](const glm::vec2& at) { return std::isnan(at.x); });
+            is_any_left = is_any_left || is_whole;
+            if (!is_whole) { std::ranges::fill(places, glm::vec2(std::numeric_limits<float>::quiet_NaN())); }
+        }
+        if (!is_any_left) { model_.corner_texture_coordinates.clear(); }
+    }
+
     void take_polygon() {
         const std::vector<std::string_view>& words = text_.words();
         if (words.size() < 3) { text_.refuse("at least three corners", std::to_string(words.size())); }
@@ -459,6 +530,7 @@ private:
         for (const std::string_view corner : words) {
             model_.corner_vertices.push_back(vertex_of(corner));
             model_.corner_normals.push_back(normal_of_corner(corner));
+            if (reads_textures_) { model_.corner_texture_coordinates.push_back(place_of(corner)); }
         }
         smoothing_groups_.push_back(smoothing_group_);
         model_.polygons.push_back(polygon);
@@ -488,9 +560,9 @@ private:
             text_.refuse("a material file", "the folder " + in_quotes(name));
         }
         if (!std::filesystem::exists(file, ignored)) { return false; }
-        for (const Material& material : read_mtl(file).materials) {
-            colours_.insert_or_assign(material.name, material.colour);
-        }
+        const MtlFile read = read_mtl(file);
+        for (const Material& material : read.materials) { colours_.insert_or_assign(material.name, material.colour); }
+        for (const auto& [material, picture] : read.pictures) { pictures_.insert_or_assign(material, picture); }
         has_material_file_ = true;
         return true;
     }
@@ -518,6 +590,11 @@ private:
             } else if (has_material_file_ && missing_files_.empty() && materials_.line_of(i) > 0) {
                 throw_error_at(path_, materials_.line_of(i),
                     fmt::format("expected a material of the material file, got {}", in_quotes(material.name)));
+            }
+            if (const auto shown = pictures_.find(material.name); reads_textures_ && shown != pictures_.end()) {
+                material.picture = shown->second.file;
+                const TextureWrap wrap = shown->second.is_clamped ? TextureWrap::Clamp : TextureWrap::Repeat;
+                material.texture.wrap_u = material.texture.wrap_v = wrap;
             }
             model_.materials.push_back(material);
         }
@@ -556,6 +633,9 @@ private:
     std::vector<long> smoothing_groups_; ///< one for each polygon
     std::vector<glm::vec3> normals_;     ///< body axes; zero: none
     std::map<std::string, glm::vec3> colours_;
+    std::map<std::string, MtlPicture> pictures_;
+    bool reads_textures_ = false;
+    std::vector<glm::vec2> places_; ///< texture coordinates
     bool has_material_file_ = false;
     std::set<std::string> missing_files_;
     std::set<std::string> old_statements_; ///< superseded keywords that the notes name already
@@ -565,9 +645,9 @@ private:
 
 } // namespace
 
-PolygonModel read_obj(const std::filesystem::path& path, const FileAxes& axes) {
+PolygonModel read_obj(const std::filesystem::path& path, const FileAxes& axes, bool textures) {
     const std::string text = read_text_file(path, largest_file_bytes);
-    return ObjReading(path, text, axes).read();
+    return ObjReading(path, text, axes, textures).read();
 }
 
 } // namespace octant::models::polygons

@@ -18,11 +18,19 @@ inline constexpr std::size_t max_obj_polygons = 1'000'000;
 inline constexpr std::size_t max_obj_corners_of_polygon = 1'000;
 inline constexpr double max_obj_coordinate_m = 1e7;
 
+/// A picture of a material in an MTL file, such as `map_Kd -clamp on FILE`.
+struct MtlPicture {
+    std::string file;
+    bool is_clamped = false; ///< -clamp on
+    bool is_moved = false;   ///< -o, -s or -t, which are not read
+};
+
 /// What an MTL file says about its materials.
 struct MtlFile {
     std::vector<Material> materials; ///< `newmtl NAME` and its `Kd R G B` as display values, in file order
-    std::vector<std::pair<std::string, std::string>> pictures; ///< material and `map_Kd ... FILE`, in file order
-    std::map<std::string, float> opacities;                    ///< by material, below 1: `d`, else 1 - `Tr`
+    std::vector<std::pair<std::string, MtlPicture>> pictures;           ///< material and `map_Kd`, in file order
+    std::vector<std::pair<std::string, std::string>> emissive_pictures; ///< material and the file of `map_Ke`
+    std::map<std::string, float> opacities;                             ///< by material, below 1: `d`, else 1 - `Tr`
 };
 
 /// Reads an MTL file. A material without Kd has the default colour. Ignores other lines, opacities outside 0..1 and a
@@ -52,6 +60,9 @@ MtlFile read_mtl(const std::filesystem::path& path);
 /// and infinity, indices out of range, a material that no material file defines although all files exist, a
 /// pivot of a part without polygons, a pivot without an axis, more than the limits above; "file: ..." for binary data
 /// and a file without polygons.
-PolygonModel read_obj(const std::filesystem::path& path, const FileAxes& axes = {});
+///
+/// With `textures`, corners keep their texture coordinates (vt) and materials name the picture of map_Kd as the file
+/// does, without decoding it; polygons without a picture, or with a corner that has no coordinates, have none.
+PolygonModel read_obj(const std::filesystem::path& path, const FileAxes& axes = {}, bool textures = false);
 
 } // namespace octant::models::polygons

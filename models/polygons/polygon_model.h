@@ -4,6 +4,7 @@
 #include "models/triangle_mesh.h"
 #include "sim/base/plane.h"
 
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
 #include <cstdint>
@@ -37,6 +38,10 @@ struct PolygonModel {
     std::string name;
     std::vector<glm::dvec3> vertices_m;
     std::vector<std::uint32_t> corner_vertices; ///< indices into vertices_m, polygon after polygon
+    /// One for each of corner_vertices, or none: u to the right and v up from a picture's lower left corner. Not
+    /// numbers (NaN) at all corners of a polygon that has none. Pieces that painting orders cut have none either: they
+    /// take them from the whole polygons (visuals/shading).
+    std::vector<glm::vec2> corner_texture_coordinates;
     /// One for each of corner_vertices, or none: unit normals that the file gives; zero where it gives none. Pieces
     /// that painting orders cut have none: they take them from the whole polygons (visuals/shading).
     std::vector<glm::vec3> corner_normals;

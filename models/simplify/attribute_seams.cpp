@@ -16,6 +16,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <deque>
 #include <map>
@@ -447,6 +448,44 @@ AttributeSeams::Values AttributeSeams::values_at(const Lookup& lookup, const glm
     if (has_normals()) { values.normal = normal_at(lookup, at_m, lookup.part ? nullptr : &nearest); }
     if (has_colours()) { values.colour = colour_at(own, nearest); }
     return values;
+}
+
+MeshPoint AttributeSeams::near_point(const glm::dvec3& at_m, std::span<const std::uint32_t> from) const {
+    constexpr std::size_t max_vain_steps = 12;
+    const auto nearest_on = [&](std::uint32_t triangle) {
+        const auto& [a, b, c] = marked_.triangles[triangle];
+        return measure::nearest_on_triangle(at_m, marked_.vertices_m[a], marked_.vertices_m[b], marked_.vertices_m[c]);
+    };
+    std::set<std::pair<double, std::uint32_t>> waiting; // by their squared distances
+    std::set<std::uint32_t> is_met;
+    const auto meet = [&](std::uint32_t triangle) {
+        if (is_met.insert(triangle).second) { waiting.emplace(nearest_on(triangle).distance2, triangle); }
+    };
+    std::ranges::for_each(from, meet);
+    assert(!waiting.empty());
+    std::pair<double, std::uint32_t> best = *waiting.begin();
+    for (std::size_t vain = 0; !waiting.empty() && vain < max_vain_steps; ++vain) {
+        const std::pair<double, std::uint32_t> next = *waiting.begin();
+        waiting.erase(waiting.begin());
+        if (next < best) {
+            best = next;
+            vain = 0;
+        }
+        for (const std::uint32_t other : next_to_[next.second]) {
+            if (other != invalid_index &&
+                marked_.triangle_materials[other] == marked_.triangle_materials[next.second]) {
+                meet(other);
+            }
+        }
+    }
+    return {best.second, nearest_on(best.second).weights};
+}
+
+glm::vec2 AttributeSeams::texture_coordinates(const MeshPoint& point) const {
+    const auto& [a, b, c] = corner_textures_[point.triangle];
+    assert(a != invalid_index);
+    return glm::vec2(point.shares.x * glm::dvec2(textures_[a]) + point.shares.y * glm::dvec2(textures_[b]) +
+                     point.shares.z * glm::dvec2(textures_[c]));
 }
 
 TriangleMesh AttributeSeams::with_colours(TriangleMesh made) const {

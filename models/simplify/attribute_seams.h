@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <limits>
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace octant::models::simplify {
@@ -34,6 +35,12 @@ struct AttributeBounds {
     double colour = std::numeric_limits<double>::infinity();
 };
 
+/// A point of a mesh: a triangle, and the shares of its corners.
+struct MeshPoint {
+    std::uint32_t triangle = 0;
+    glm::dvec3 shares{1.0, 0.0, 0.0};
+};
+
 /// The triangles whose attribute errors are measured: at least 8,000 (all if there are fewer), which is faster on large
 /// meshes, or all, which certifies a bound.
 enum class LookAt : std::uint8_t { SomeTriangles, AllTriangles };
@@ -56,6 +63,21 @@ public:
     bool has_normals() const { return !corner_normals_.empty(); }
 
     bool has_colours() const { return !marked_.colours.empty(); }
+
+    /// For each material of marked() the mesh's own material; invalid_index for none.
+    const std::vector<std::uint32_t>& materials_of_charts() const { return material_of_mark_; }
+
+    /// A point of a chart near to a place: on the way from triangles of that chart, at least one, across its edges to
+    /// nearer ones. Other parts of the chart that lie as near, such as the lower side of a thin wing, are not met.
+    MeshPoint near_point(const glm::dvec3& at_m, std::span<const std::uint32_t> from) const;
+
+    /// Whether a point has texture coordinates.
+    bool has_coordinates(const MeshPoint& point) const {
+        return has_texture_coordinates() && corner_textures_[point.triangle][0] != invalid_index;
+    }
+
+    /// The texture coordinates of a point; it must have some (asserted).
+    glm::vec2 texture_coordinates(const MeshPoint& point) const;
 
     /// A result of simplifying marked() with the materials and colours of the mesh. Where charts meet and colours
     /// break, it has a vertex for each chart, at the same place to the bit and in the colour of its side.

@@ -1,5 +1,6 @@
 #include "models/measure/mesh_defects.h"
 #include "models/meshfile/level_chain.h"
+#include "models/meshfile/texture_store.h"
 #include "models/repair/repair.h"
 #include "models/triangle_mesh.h"
 #include "sim/base/error.h"
@@ -21,10 +22,12 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <filesystem>
 #include <fmt/format.h>
 #include <limits>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -180,9 +183,10 @@ struct ModelInfoOptions : base::OutputOptions {
     std::string picture;
 };
 
-models::TriangleMesh read_any_mesh(const std::string& file) {
+models::TriangleMesh read_any_mesh(
+    const std::string& file, const std::shared_ptr<models::meshfile::TextureStore>& textures) {
     return models::meshfile::is_chain_file(file) ? std::move(models::meshfile::read_chain(file).levels.front().mesh)
-                                                 : world::load_mesh(file, {.pictures = true});
+                                                 : world::load_mesh(file, {.pictures = true, .textures = textures});
 }
 
 void turn_into_body(models::TriangleMesh& mesh, const models::polygons::FileAxes& axes) {
@@ -216,6 +220,38 @@ void add_materials(base::JsonValue& results, const models::TriangleMesh& mesh) {
     results["vertex_colours"] = !mesh.colours.empty();
 }
 
+std::string_view words_of(models::TextureAlpha alpha) {
+    return alpha == models::TextureAlpha::Opaque ? "opaque"
+           : alpha == models::TextureAlpha::Mask ? "with holes"
+                                                 : "clear";
+}
+
+/// The pictures that lie on triangles, each with its size and what its alpha does, and the memory that they take.
+void add_pictures(
+    base::JsonValue& results, const models::TriangleMesh& mesh, const models::meshfile::TextureStore& textures) {
+    std::vector<std::string> lines;
+    std::vector<std::string> glowing;
+    const auto add_once = [](std::vector<std::string>& list, std::string line) {
+        if (std::ranges::find(list, line) == list.end()) { list.push_back(std::move(line)); }
+    };
+    for (const models::Material& material : mesh.materials) {
+        if (const auto& picture = material.texture.picture; picture != nullptr) {
+            const models::TextureLevel& finest = picture->levels.front();
+            add_once(lines,
+                fmt::format("{} ({} x {}, {})", printable(std::filesystem::path(material.picture).filename().string()),
+                    finest.width, finest.height, words_of(material.texture.alpha)));
+        }
+        if (!material.emissive_picture.empty()) {
+            add_once(glowing, printable(std::filesystem::path(material.emissive_picture).filename().string()));
+        }
+    }
+    results["pictures"] = base::JsonValue::list({});
+    for (const std::string& line : lines) { results["pictures"].push_back(line); }
+    results["emissive_pictures"] = base::JsonValue::list({});
+    for (const std::string& line : glowing) { results["emissive_pictures"].push_back(line); }
+    results["picture_bytes"] = textures.bytes();
+}
+
 void add_surface(base::JsonValue& results, const models::TriangleMesh& mesh) {
     const std::size_t read = mesh.triangles.size();
     const models::repair::RepairedMesh repaired = models::repair::repaired(mesh);
@@ -230,7 +266,8 @@ void add_surface(base::JsonValue& results, const models::TriangleMesh& mesh) {
 void show_model_info(const ModelInfoOptions& options) {
     world::check_axes(options.frame.axes);
     if (!options.picture.empty()) { check_can_write(options.picture); }
-    models::TriangleMesh mesh = read_any_mesh(options.file);
+    const auto textures = std::make_shared<models::meshfile::TextureStore>();
+    models::TriangleMesh mesh = read_any_mesh(options.file, textures);
     const world::AircraftAxes axes = world::aircraft_axes(options.frame.axes, options.file, mesh);
     world::scale_mesh(mesh, options.frame.scale);
     turn_into_body(mesh, axes.axes);
@@ -246,6 +283,8 @@ void show_model_info(const ModelInfoOptions& options) {
     results["axes_are"] = world::axes_text(axes);
     add_surface(results, mesh);
     add_materials(results, mesh);
+    add_pictures(results, mesh, *textures);
+    for (const std::string& note : textures->notes()) { base::print_note(options.quiet, "note: " + note); }
     for (const auto& note :
         {world::axes_note(axes, options.file), world::size_note(extent_m, options.frame.scale, options.file)}) {
         if (note) { mesh.notes.push_back(*note); }
@@ -279,7 +318,9 @@ Command model_info_command() {
                           value_option(settings::aircraft_scale_info, options->frame.scale)}),
         .footer = "Keys: file, length_m, span_m, height_m, scale, axes, axes_are, faces and "
                   "vertices as read,\n  shells, closed and defects as repaired, materials "
-                  "(red green blue) and how often, vertex_colours, notes, picture.\n"
+                  "(red green blue) and how often, vertex_colours,\n  pictures that lie on it, emissive_pictures, "
+                  "picture_bytes "
+                  "in memory with mip levels, notes, picture.\n"
                   "Example:\n  octant model info f15 --picture f15.png",
         .run = [options] { show_model_info(*options); }};
 }

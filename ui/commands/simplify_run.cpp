@@ -586,9 +586,6 @@ bool simplify_with_shared_borders(const SimplifyArguments& command, JsonValue& r
 namespace {
 
 void simplify_into_chain(const SimplifyArguments& command, const simplify::AttributeSeams& seams, JsonValue& results) {
-    if (seams.has_texture_coordinates()) {
-        base::print_note(command.quiet, "note: texture coordinates are left out of the levels of a chain");
-    }
     ChainOptions options;
     options.simplify = options_of(command, models::diagonal_m(seams.marked()));
     if (command.faces > 0) { options.coarsest_faces = static_cast<std::size_t>(command.faces); }

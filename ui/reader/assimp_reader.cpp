@@ -1,3 +1,4 @@
+#include "models/meshfile/picture_path.h"
 #include "sim/base/error.h"
 #include "sim/base/text_file.h"
 #include "ui/reader/library_readers.h"
@@ -22,41 +23,61 @@ namespace {
 
 using models::invalid_index;
 using models::meshfile::AffineTransform;
-using models::meshfile::BakedPictures;
 using models::meshfile::CornerIndices;
 using models::meshfile::MeshBuilder;
+using models::meshfile::PolygonPicture;
 
 struct MaterialSurface {
     std::uint32_t material = invalid_index;
-    std::uint32_t picture = BakedPictures::none;
+    PolygonPicture picture;
     bool two_sided = false;
 };
 
-/// Loads a surface's embedded picture or picture file.
-std::uint32_t picture_of(const aiScene& scene, const aiMaterial& from, MeshBuilder& mesh) {
+/// The name of a surface's picture; nothing where it has none.
+std::optional<aiString> picture_name(const aiMaterial& from, aiTextureType kind) {
     aiString name;
-    if (from.GetTexture(aiTextureType_DIFFUSE, 0, &name) != AI_SUCCESS &&
-        from.GetTexture(aiTextureType_BASE_COLOR, 0, &name) != AI_SUCCESS) {
-        return BakedPictures::none;
+    if (from.GetTexture(kind, 0, &name) != AI_SUCCESS) { return std::nullopt; }
+    return name;
+}
+
+std::optional<aiString> picture_name(const aiMaterial& from) {
+    const auto diffuse = picture_name(from, aiTextureType_DIFFUSE);
+    return diffuse ? diffuse : picture_name(from, aiTextureType_BASE_COLOR);
+}
+
+models::TextureWrap wrap_of(const aiMaterial& from, const char* key, unsigned kind) {
+    int mode = aiTextureMapMode_Wrap;
+    from.Get(key, kind, 0, mode);
+    return mode == aiTextureMapMode_Clamp    ? models::TextureWrap::Clamp
+           : mode == aiTextureMapMode_Mirror ? models::TextureWrap::Mirror
+                                             : models::TextureWrap::Repeat;
+}
+
+/// Loads a surface's embedded picture or picture file.
+PolygonPicture picture_of(const aiScene& scene, const aiMaterial& from, MeshBuilder& mesh) {
+    PolygonPicture made;
+    const auto name = picture_name(from);
+    if (!name) { return made; }
+    const auto kind = static_cast<unsigned>(
+        picture_name(from, aiTextureType_DIFFUSE) ? aiTextureType_DIFFUSE : aiTextureType_BASE_COLOR);
+    made.wrap_u = wrap_of(from, _AI_MATKEY_MAPPINGMODE_U_BASE, kind);
+    made.wrap_v = wrap_of(from, _AI_MATKEY_MAPPINGMODE_V_BASE, kind);
+    const aiTexture* inside = scene.GetEmbeddedTexture(name->C_Str());
+    if (inside == nullptr) {
+        made.picture = mesh.pictures().picture(name->C_Str());
+    } else if (inside->mHeight == 0) { // else plain pixels: no format that an image reader knows
+        made.picture = mesh.pictures().picture(
+            name->C_Str(), std::string_view(reinterpret_cast<const char*>(inside->pcData), inside->mWidth));
     }
-    const aiTexture* inside = scene.GetEmbeddedTexture(name.C_Str());
-    if (inside == nullptr) { return mesh.pictures().picture(name.C_Str()); }
-    if (inside->mHeight != 0) { // plain pixels: no format that an image reader knows
-        return BakedPictures::none;
-    }
-    return mesh.pictures().picture(
-        name.C_Str(), std::string_view(reinterpret_cast<const char*>(inside->pcData), inside->mWidth));
+    return made;
 }
 
 /// Returns the path of a surface's picture file; empty if there is none or the picture is embedded.
-std::string picture_file_of(const aiScene& scene, const aiMaterial& from, const std::filesystem::path& mesh_file) {
-    aiString name;
-    if ((from.GetTexture(aiTextureType_DIFFUSE, 0, &name) != AI_SUCCESS &&
-            from.GetTexture(aiTextureType_BASE_COLOR, 0, &name) != AI_SUCCESS) ||
-        scene.GetEmbeddedTexture(name.C_Str()) != nullptr) {
-        return {};
-    }
-    return (std::filesystem::absolute(mesh_file).parent_path() / name.C_Str()).string();
+std::string picture_file_of(
+    const aiScene& scene, const aiMaterial& from, aiTextureType kind, const std::filesystem::path& mesh_file) {
+    const auto name = kind == aiTextureType_DIFFUSE ? picture_name(from) : picture_name(from, kind);
+    if (!name || scene.GetEmbeddedTexture(name->C_Str()) != nullptr) { return {}; }
+    return models::meshfile::picture_file(std::filesystem::absolute(mesh_file), name->C_Str()).string();
 }
 
 std::vector<MaterialSurface> surfaces_of(const aiScene& scene, const std::filesystem::path& file, MeshBuilder& mesh) {
@@ -65,7 +86,9 @@ std::vector<MaterialSurface> surfaces_of(const aiScene& scene, const std::filesy
         const aiMaterial& from = *scene.mMaterials[i];
         aiString name;
         from.Get(AI_MATKEY_NAME, name);
-        models::Material material{.name = name.C_Str(), .picture = picture_file_of(scene, from, file)};
+        models::Material material{.name = name.C_Str(),
+            .picture = picture_file_of(scene, from, aiTextureType_DIFFUSE, file),
+            .emissive_picture = picture_file_of(scene, from, aiTextureType_EMISSIVE, file)};
         aiColor3D colour;
         if (from.Get(AI_MATKEY_COLOR_DIFFUSE, colour) == AI_SUCCESS) {
             const auto part = [](float value) {
@@ -75,7 +98,7 @@ std::vector<MaterialSurface> surfaces_of(const aiScene& scene, const std::filesy
         }
         MaterialSurface surface;
         surface.picture = picture_of(scene, from, mesh);
-        if (surface.picture != BakedPictures::none && material.colour == glm::vec3(0.0F)) {
+        if (surface.picture.picture != PolygonPicture::none && material.colour == glm::vec3(0.0F)) {
             material.colour = glm::vec3(1.0F);
         }
         int two_sided = 0;
@@ -144,7 +167,7 @@ void add_mesh(const aiMesh& from, const MaterialSurface& surface, const AffineTr
             }
             corners.push_back(corner);
         }
-        mesh.add_polygon(corners, surface.material, from.HasTextureCoords(0) ? surface.picture : BakedPictures::none);
+        mesh.add_polygon(corners, surface.material, from.HasTextureCoords(0) ? surface.picture : PolygonPicture());
     }
 }
 

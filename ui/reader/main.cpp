@@ -1,13 +1,15 @@
 // octant-read-mesh LIBRARY PICTURES BACKS IN OUT.obj: reads a mesh by a library and writes it as OBJ, which holds all
-// of it; with LIBRARY "draco" writes a glTF file unpacked, as OUT.glb. PICTURES is "pictures" or "-", BACKS "backs" or
-// "-". It is a separate program because a file may make the library crash, hang or use all memory.
+// of it; with LIBRARY "draco" writes a glTF file unpacked, as OUT.glb. PICTURES is "textures", "pictures" or "-", BACKS
+// "backs" or "-". It is a separate program because a file may make the library crash, hang or use all memory.
 #include "models/meshfile/mesh_file.h"
+#include "models/meshfile/texture_store.h"
 #include "sim/base/error.h"
 #include "ui/reader/library_readers.h"
 
 #include <csignal>
 #include <cstdio>
 #include <exception>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <sys/resource.h>
@@ -74,14 +76,17 @@ void read(const std::string& library, const models::meshfile::ReadOptions& optio
 
 int main(int count, char** words) {
     if (count != 6) {
-        std::fputs("octant-read-mesh assimp|osg|draco pictures|- backs|- IN OUT.obj: started by octant\n", stderr);
+        std::fputs(
+            "octant-read-mesh assimp|osg|draco textures|pictures|- backs|- IN OUT.obj: started by octant\n", stderr);
         return exit_invalid_input;
     }
     limit();
     try {
-        read(words[1],
-            {.pictures = std::string_view(words[2]) == "pictures", .backs = std::string_view(words[3]) == "backs"},
-            words[4], words[5]);
+        const std::string_view pictures = words[2];
+        models::meshfile::ReadOptions options{
+            .pictures = pictures != "-", .backs = std::string_view(words[3]) == "backs"};
+        if (pictures == "textures") { options.textures = std::make_shared<models::meshfile::TextureStore>(); }
+        read(words[1], options, words[4], words[5]);
         return 0;
     } catch (const std::bad_alloc&) {
         std::fprintf(stderr, "%s: expected a mesh that fits in 4 GiB, got a larger one\n", words[4]);

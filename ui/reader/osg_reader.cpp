@@ -24,9 +24,9 @@ namespace octant::ui::reader {
 namespace {
 
 using models::invalid_index;
-using models::meshfile::BakedPictures;
 using models::meshfile::CornerIndices;
 using models::meshfile::MeshBuilder;
+using models::meshfile::PolygonPicture;
 
 /// Collects the triangles of a geometry by their vertices.
 struct Triangles {
@@ -74,9 +74,10 @@ public:
 private:
     void add(const osg::Geometry& geometry, const std::vector<std::array<unsigned, 3>>& triangles, std::uint32_t first,
         std::size_t count) {
-        const std::uint32_t picture = picture_of(geometry);
+        const PolygonPicture picture = picture_of(geometry);
         const auto* on_picture = dynamic_cast<const osg::Vec2Array*>(geometry.getTexCoordArray(0));
-        const bool pictured = picture != BakedPictures::none && on_picture != nullptr && on_picture->size() >= count;
+        const bool pictured =
+            picture.picture != PolygonPicture::none && on_picture != nullptr && on_picture->size() >= count;
         for (const auto& triangle : triangles) {
             std::array<CornerIndices, 3> corners;
             for (std::size_t k = 0; k < 3; ++k) {
@@ -87,7 +88,7 @@ private:
                     corners.at(k).texture = mesh_.add_texture_coordinates({place.x(), place.y()});
                 }
             }
-            mesh_.add_polygon(corners, material_of(geometry, triangle[0]), pictured ? picture : BakedPictures::none);
+            mesh_.add_polygon(corners, material_of(geometry, triangle[0]), pictured ? picture : PolygonPicture());
         }
     }
 
@@ -103,19 +104,27 @@ private:
     }
 
     /// Of pictures that lie on a surface; those that it mirrors, whose places follow from the view, are none.
-    std::uint32_t picture_of(const osg::Geometry& geometry) {
+    PolygonPicture picture_of(const osg::Geometry& geometry) {
         const auto* mirrored = nearest_state(geometry, [](const osg::StateSet* state) {
             return state == nullptr ? nullptr : state->getTextureAttribute(0, osg::StateAttribute::TEXGEN);
         });
-        if (mirrored != nullptr) { return BakedPictures::none; }
-        const osg::Image* image = nearest_state(geometry, [](const osg::StateSet* state) {
-            const auto* texture = state == nullptr ? nullptr
-                                                   : dynamic_cast<const osg::Texture2D*>(
-                                                         state->getTextureAttribute(0, osg::StateAttribute::TEXTURE));
-            return texture == nullptr ? nullptr : texture->getImage();
+        if (mirrored != nullptr) { return {}; }
+        const osg::Texture2D* texture = nearest_state(geometry, [](const osg::StateSet* state) {
+            return state == nullptr ? nullptr
+                                    : dynamic_cast<const osg::Texture2D*>(
+                                          state->getTextureAttribute(0, osg::StateAttribute::TEXTURE));
         });
-        return image == nullptr || image->getFileName().empty() ? BakedPictures::none
-                                                                : mesh_.pictures().picture(image->getFileName());
+        const osg::Image* image = texture == nullptr ? nullptr : texture->getImage();
+        if (image == nullptr || image->getFileName().empty()) { return {}; }
+        const auto wrap_of = [&](osg::Texture::WrapParameter side) {
+            const osg::Texture::WrapMode mode = texture->getWrap(side);
+            return mode == osg::Texture::REPEAT   ? models::TextureWrap::Repeat
+                   : mode == osg::Texture::MIRROR ? models::TextureWrap::Mirror
+                                                  : models::TextureWrap::Clamp;
+        };
+        return {.picture = mesh_.pictures().picture(image->getFileName()),
+            .wrap_u = wrap_of(osg::Texture::WRAP_S),
+            .wrap_v = wrap_of(osg::Texture::WRAP_T)};
     }
 
     /// The colour of a vertex, else that of the material, as a material of the mesh.

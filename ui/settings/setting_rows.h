@@ -261,7 +261,10 @@ inline constexpr std::tuple surface{
         {.group = Surface, .change = Picture}),
     setting<&RunSettings::surface, &SurfaceSettings::aircraft_error_px>(
         {"aircraft-error-px", "PIXELS", "largest screen-space error of aircraft meshes", 0.01, 100.0},
-        {.group = Surface, .change = Picture})};
+        {.group = Surface, .change = Picture}),
+    setting<&RunSettings::surface, &SurfaceSettings::textures>(
+        {"textures", "", "pictures on aircraft, in at most 256 MiB; without them the vertices have their colours"},
+        {.group = Surface, .change = World})};
 
 /// How aircraft are shaded.
 inline constexpr std::tuple shading{

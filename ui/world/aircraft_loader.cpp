@@ -1,5 +1,7 @@
 #include "ui/world/aircraft_loader.h"
 
+#include "models/meshfile/picture_path.h"
+#include "models/meshfile/texture_store.h"
 #include "models/polygons/file_axes.h"
 #include "models/polygons/obj_reader.h"
 #include "models/polygons/polygon_model.h"
@@ -123,6 +125,8 @@ struct LoadContext {
     std::vector<fs::path> order_files;
     /// Where painting orders are kept.
     std::optional<fs::path> order_cache_folder;
+    /// The pictures on aircraft; null where they are not drawn.
+    std::shared_ptr<models::meshfile::TextureStore> textures;
 
     void note(const std::vector<std::string>& more) { notes.insert(notes.end(), more.begin(), more.end()); }
 };
@@ -158,19 +162,19 @@ draworder::OrderedModel with_order(
     return std::move(cached.ordered);
 }
 
-/// Whether a material file has pictures or glass, which meshes show.
-bool has_pictures_or_glass(const fs::path& materials) {
+/// Whether a material file has glass, or pictures that are not drawn as textures: both are shown on meshes.
+bool needs_mesh(const fs::path& materials, bool textures) {
     std::error_code ignored;
     if (!fs::is_regular_file(materials, ignored)) { return false; }
     const models::polygons::MtlFile read = models::polygons::read_mtl(materials);
-    return !read.opacities.empty() || std::ranges::any_of(read.pictures, [&](const auto& of_material) {
-        return fs::is_regular_file(materials.parent_path() / of_material.second, ignored);
-    });
+    return !read.opacities.empty() || (!textures && std::ranges::any_of(read.pictures, [&](const auto& of_material) {
+        return fs::is_regular_file(materials.parent_path() / of_material.second.file, ignored);
+    }));
 }
 
 /// Whether an OBJ file is a polygon model, to be painted in order. Many faces that are nearly all triangles are the
 /// mesh of a surface, which refinement in flight serves better.
-bool is_polygon_model(const fs::path& file) {
+bool is_polygon_model(const fs::path& file, bool textures) {
     if (extension_of(file) != ".obj" || models::meshfile::is_xplane_object(file)) { return false; }
     std::size_t triangles = 0;
     std::size_t others = 0;
@@ -181,7 +185,7 @@ bool is_polygon_model(const fs::path& file) {
         if (lines.skip("f")) {
             ++(lines.words().size() == 3 ? triangles : others);
         } else if (lines.skip("mtllib")) {
-            is_plain = is_plain && !has_pictures_or_glass(file.parent_path() / lines.rest_of_line());
+            is_plain = is_plain && !needs_mesh(file.parent_path() / lines.rest_of_line(), textures);
         }
     }
     const std::size_t faces = triangles + others;
@@ -194,9 +198,13 @@ planning::AircraftModel finished_model(PolygonModel model, const sim::AircraftKi
     const OrderLimits& most, LoadContext& context) {
     const glm::dvec3 eye_m = kind != nullptr ? kind->pilot_eye_m : planning::pilot_eye_m(model);
     const PolygonModel whole = model;
+    model.corner_texture_coordinates.clear(); // orders need none and cut polygons
     draworder::OrderedModel ordered = with_order(std::move(model), inputs, most, context);
     context.note(ordered.notes);
     std::vector<glm::vec3> normals = shading::piece_normals(whole, shading::corner_normals(whole), ordered.model);
+    if (!whole.corner_texture_coordinates.empty()) {
+        ordered.model.corner_texture_coordinates = shading::piece_texture_coordinates(whole, ordered.model);
+    }
     planning::AircraftModel made =
         planning::aircraft_model(std::move(ordered.model), std::move(ordered.order), eye_m, std::move(normals));
     // Orders move points by a hair: the camera keeps its place however hidden surfaces are removed.
@@ -204,10 +212,28 @@ planning::AircraftModel finished_model(PolygonModel model, const sim::AircraftKi
     return made;
 }
 
+/// Decodes the pictures that the materials name. Those that cannot be read are noted.
+void take_pictures(PolygonModel& model, const fs::path& file, LoadContext& context) {
+    for (models::Material& material : model.materials) {
+        if (material.picture.empty()) { continue; }
+        const fs::path picture = models::meshfile::picture_file(file, material.picture);
+        try {
+            material.texture.picture = context.textures->picture_in(picture);
+            material.picture = picture.string();
+            const bool is_opaque = material.texture.picture->is_opaque;
+            material.texture.alpha = is_opaque ? models::TextureAlpha::Opaque : models::TextureAlpha::Mask;
+            if (material.colour == glm::vec3(0.0F)) { material.colour = glm::vec3(1.0F); } // as meshes
+        } catch (const Error& fault) {
+            context.notes.push_back(fmt::format("{}; its surfaces have their material's colour", fault.what()));
+        }
+    }
+}
+
 PolygonModel read_polygon_model(const fs::path& file, const AircraftFrameSettings& frame, LoadContext& context) {
     if (file.parent_path() == base::data_folder() / "models") { return models::polygons::read_obj(file); }
+    const bool textures = context.textures != nullptr;
     const models::polygons::FileAxes default_axes;
-    PolygonModel model = models::polygons::read_obj(file, default_axes);
+    PolygonModel model = models::polygons::read_obj(file, default_axes, textures);
     models::TriangleMesh shape = models::polygons::mesh_from_polygons(model);
     for (glm::dvec3& vertex_m : shape.vertices_m) { vertex_m = default_axes.file_from_body(vertex_m); }
     const AircraftAxes shown = aircraft_axes(frame.axes, file, shape);
@@ -216,7 +242,8 @@ PolygonModel read_polygon_model(const fs::path& file, const AircraftFrameSetting
         {axes_note(shown, file), size_note((bounds.max_m - bounds.min_m) * frame.scale, frame.scale, file)}) {
         if (note) { context.notes.push_back(*note); }
     }
-    if (shown.axes.text() != default_axes.text()) { model = models::polygons::read_obj(file, shown.axes); }
+    if (shown.axes.text() != default_axes.text()) { model = models::polygons::read_obj(file, shown.axes, textures); }
+    if (textures) { take_pictures(model, file, context); }
     if (frame.scale != 1.0) {
         for (glm::dvec3& vertex_m : model.vertices_m) { vertex_m *= frame.scale; }
         for (models::polygons::Pivot& pivot : model.pivots) { pivot.point_m *= frame.scale; }
@@ -241,13 +268,14 @@ planning::AircraftModel far_model(MeshAircraft& mesh, const AircraftSources& inp
 
 planning::AircraftModel load_model(const std::string& name, const AircraftSources& inputs, LoadContext& context) {
     const fs::path file = base::aircraft_file(name);
-    if (is_polygon_model(file)) {
+    if (is_polygon_model(file, context.textures != nullptr)) {
         PolygonModel model = read_polygon_model(file, inputs.frame, context);
         context.note(model.notes);
         return finished_model(std::move(model), sim::find_aircraft_kind(name), inputs,
             {max_polygons_of_a_model, inputs.order_seconds}, context);
     }
-    MeshAircraft mesh = read_mesh_aircraft(file, inputs.frame, context.order_cache_folder.value_or(fs::path()));
+    MeshAircraft mesh =
+        read_mesh_aircraft(file, inputs.frame, context.order_cache_folder.value_or(fs::path()), context.textures);
     context.note(mesh.notes);
     planning::AircraftModel model = far_model(mesh, inputs, context);
     add_meshes(model, mesh);
@@ -272,7 +300,8 @@ AircraftSources aircraft_sources(const settings::RunSettings& settings, std::vec
         .hidden_surface = settings.surface.hidden_surface,
         .order_method = settings.surface.order_method,
         .order_seconds = settings.surface.order_seconds,
-        .order_cache = settings.surface.order_cache};
+        .order_cache = settings.surface.order_cache,
+        .textures = settings.surface.textures};
     for (const std::string& shape : inputs.shapes) {
         const fs::path file = base::aircraft_file(shape);
         open_file(file);
@@ -287,6 +316,7 @@ LoadedAircraft load_aircraft(const AircraftSources& inputs) {
     loaded.inputs = inputs;
     LoadContext context;
     context.order_cache_folder = order_cache_folder(inputs.order_cache);
+    if (inputs.textures) { context.textures = std::make_shared<models::meshfile::TextureStore>(); }
     const auto add = [&](planning::AircraftModel model) {
         loaded.models.push_back(std::make_shared<const planning::AircraftModel>(std::move(model)));
     };
@@ -313,6 +343,7 @@ LoadedAircraft load_aircraft(const AircraftSources& inputs) {
         loaded.dials = planning::dials_of(cockpit->polygons, sim::aircraft_kind(inputs.shapes.front()).limits);
         add(std::move(*cockpit));
     }
+    if (context.textures) { context.note(context.textures->notes()); }
     loaded.notes = std::move(context.notes);
     loaded.order_files = std::move(context.order_files);
     return loaded;

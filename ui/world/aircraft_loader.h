@@ -37,6 +37,7 @@ struct AircraftSources {
     visuals::draworder::OrderMethod order_method{};
     double order_seconds = 0.0;
     std::string order_cache;
+    bool textures = true;
 
     bool operator==(const AircraftSources&) const = default;
 };

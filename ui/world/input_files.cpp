@@ -3,6 +3,7 @@
 #include "models/heights/map_inputs.h"
 #include "models/meshfile/flightgear_xml.h"
 #include "models/meshfile/mesh_join.h"
+#include "models/meshfile/picture_path.h"
 #include "models/polygons/obj_reader.h"
 #include "sim/base/error.h"
 #include "sim/base/hash.h"
@@ -13,9 +14,12 @@
 #include "ui/settings/aircraft_entry.h"
 #include "ui/settings/settings.h"
 #include "ui/settings/settings_check.h"
+#include "ui/world/mesh_loader.h"
 #include "visuals/groundfile/ground_file.h"
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
 #include <filesystem>
 #include <fmt/format.h>
 #include <fstream>
@@ -39,6 +43,18 @@ namespace {
 constexpr std::size_t largest_model_bytes = std::size_t{1} << 30U;
 constexpr std::size_t max_files = 2'000;
 
+constexpr std::array<std::string_view, 12> picture_endings{
+    ".png", ".jpg", ".jpeg", ".tga", ".bmp", ".dds", ".rgb", ".rgba", ".sgi", ".gif", ".webp", ".tif"};
+
+bool is_picture(const fs::path& file) {
+    return std::ranges::find(picture_endings, extension_of(file)) != picture_endings.end();
+}
+
+bool is_in_file_names(char c) {
+    constexpr std::string_view others = "\"<>|*?=";
+    return static_cast<unsigned char>(c) >= 0x20 && others.find(c) == others.npos;
+}
+
 /// Follows names from file to file.
 class ReferenceCollector {
 public:
@@ -47,13 +63,15 @@ public:
         try {
             const std::string ending = extension_of(file);
             if (ending == ".ac") {
-                add_ac3d_references(file, pictures.empty() ? file.parent_path() : pictures);
+                add_ac3d_references(file, pictures);
             } else if (ending == ".obj") {
                 add_obj_references(file);
             } else if (ending == ".mtl") {
                 add_material_references(file);
             } else if (ending == ".gltf") {
                 add_gltf_references(file);
+            } else if (ending == ".wrl" || is_library_file(file)) {
+                add_picture_names(file);
             } else if (ending == ".xml") {
                 add_xml_references(file, models::meshfile::read_xml(file));
             }
@@ -78,9 +96,8 @@ private:
     }
 
     /// Looks for a picture as the readers of models/meshfile do.
-    void add_picture(const fs::path& folder, std::string name) {
-        std::ranges::replace(name, '\\', '/');
-        if (!name.empty() && !add(folder / name)) { add(folder / fs::path(name).filename()); }
+    void add_picture(const fs::path& file, const std::string& name, const fs::path& pictures = {}) {
+        if (!name.empty()) { add(models::meshfile::picture_file(file, name, pictures)); }
     }
 
     void add_ac3d_references(const fs::path& file, const fs::path& pictures) {
@@ -90,7 +107,24 @@ private:
             if (!lines.skip("texture")) { continue; }
             std::string name(lines.rest_of_line());
             std::erase(name, '"');
-            add_picture(pictures, name);
+            add_picture(file, name, pictures);
+        }
+    }
+
+    /// Pictures that a file of any format names somewhere: all texts that end as the names of pictures do and lead to
+    /// one.
+    void add_picture_names(const fs::path& file) {
+        constexpr std::size_t longest_name = 260;
+        const std::string text = text_of(file);
+        const std::string lower = models::meshfile::lower_case(text);
+        for (const std::string_view ending : picture_endings) {
+            for (std::size_t at = lower.find(ending); at != lower.npos; at = lower.find(ending, at + 1)) {
+                const std::size_t end = at + ending.size();
+                std::size_t begin = at;
+                while (begin > 0 && at - begin < longest_name && is_in_file_names(text[begin - 1])) { --begin; }
+                const std::string name = text.substr(begin, end - begin);
+                add_picture(file, models::meshfile::without_percents(name).value_or(name));
+            }
         }
     }
 
@@ -104,9 +138,9 @@ private:
     }
 
     void add_material_references(const fs::path& file) {
-        for (const auto& [material, picture] : models::polygons::read_mtl(file).pictures) {
-            add_picture(file.parent_path(), picture);
-        }
+        const models::polygons::MtlFile read = models::polygons::read_mtl(file);
+        for (const auto& [material, picture] : read.pictures) { add_picture(file, picture.file); }
+        for (const auto& [material, picture] : read.emissive_pictures) { add_picture(file, picture); }
     }
 
     /// All that stands behind "uri", but data that stand there themselves.
@@ -118,9 +152,9 @@ private:
             const std::size_t open = text.find('"', at);
             const std::size_t close = open == text.npos ? open : text.find('"', open + 1);
             if (close == text.npos) { return; }
-            if (text.compare(open + 1, 5, "data:") != 0) {
-                add(file.parent_path() / text.substr(open + 1, close - open - 1));
-            }
+            if (text.compare(open + 1, 5, "data:") == 0) { continue; }
+            const std::string name = text.substr(open + 1, close - open - 1);
+            add_picture(file, models::meshfile::without_percents(name).value_or(name));
         }
     }
 
@@ -133,6 +167,8 @@ private:
                 const fs::path named = models::meshfile::flightgear_file(file, child.text);
                 add(named);
                 if (!pictures.empty() && extension_of(named) == ".ac") { add_references(named, pictures); }
+            } else if (child.name == "texture" && child.children.empty()) {
+                add_picture(file, child.text);
             }
             add_xml_references(file, child);
         }
@@ -224,9 +260,14 @@ struct Collector {
             if (!has_name(location)) { files.push_back({file.parent_path() / way, location, model.location}); }
         }
         for (const fs::path& other : named) {
-            if (std::ranges::none_of(below, [&](const fs::path& way) {
-                    return (fs::absolute(file).parent_path() / way).lexically_normal() == other;
-                })) {
+            const bool is_below = std::ranges::any_of(below, [&](const fs::path& way) {
+                return (fs::absolute(file).parent_path() / way).lexically_normal() == other;
+            });
+            // Readers find a picture beside the model by its name alone.
+            const std::string beside = (fs::path(model.name).parent_path() / other.filename()).string();
+            if (!is_below && is_picture(other) && model.location == FileLocation::Copied && !has_name(beside)) {
+                files.push_back({other, beside, FileLocation::Copied});
+            } else if (!is_below) {
                 add_external(other);
             }
         }

@@ -23,9 +23,9 @@ struct FileMtime {
 void add_mtime(const std::filesystem::path& file, std::vector<FileMtime>& mtimes);
 
 /// The files that a model's file names, directly or through others, and that are there; absolute, each once, in the
-/// order in which they are met: materials and pictures of .obj files, pictures of .ac files, buffers and pictures of
-/// .gltf files, and all that FlightGear's .xml files name. A file that cannot be read is passed over: the model's
-/// loader reports it.
+/// order in which they are met: materials and pictures of .obj files, pictures of .ac and .wrl files and of formats
+/// that libraries read, buffers and pictures of .gltf files, and all that FlightGear's .xml files name. A file that
+/// cannot be read is passed over: the model's loader reports it.
 std::vector<std::filesystem::path> referenced_files(const std::filesystem::path& model);
 
 /// The settings with every file in them by its absolute name, so that they mean the same in any folder.

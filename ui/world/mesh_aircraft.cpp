@@ -5,6 +5,7 @@
 #include "models/meshfile/smooth_normals.h"
 #include "models/repair/repair.h"
 #include "models/simplify/simplify.h"
+#include "sim/base/error.h"
 #include "sim/base/output_file.h"
 #include "sim/base/stopwatch.h"
 #include "ui/world/aircraft_frame.h"
@@ -176,8 +177,8 @@ struct FileHierarchy {
 };
 
 /// A hierarchy from its file, or made of a mesh. Turning parts and transparent surfaces go to `aircraft`.
-FileHierarchy hierarchy_in(
-    const fs::path& file, const AircraftFrameSettings& frame, const fs::path& cache, MeshAircraft& aircraft) {
+FileHierarchy hierarchy_in(const fs::path& file, const AircraftFrameSettings& frame, const fs::path& cache,
+    std::shared_ptr<meshfile::TextureStore> textures, MeshAircraft& aircraft) {
     const RefineMeshOptions input{.file = file.string(), .base = 0, .quiet = true};
     FileHierarchy result;
     if (refine::is_progressive_file(file)) {
@@ -187,7 +188,7 @@ FileHierarchy hierarchy_in(
         result.bounds = models::bounds_of(whole);
         return result;
     }
-    const meshfile::ReadOptions options{.pictures = true, .backs = true};
+    const meshfile::ReadOptions options{.pictures = true, .textures = std::move(textures), .backs = true};
     meshfile::RotatingModel model;
     if (path_exists(file) && !is_library_file(file) && meshfile::is_mesh_file(file)) {
         model = read_packed_model(file, options);
@@ -212,15 +213,17 @@ void note_frame(const AircraftAxes& axes, const models::BoundingBox& bounds, dou
     }
 }
 
-MeshAircraft from_hierarchy(const fs::path& file, const AircraftFrameSettings& frame, const fs::path& cache) {
+MeshAircraft from_hierarchy(const fs::path& file, const AircraftFrameSettings& frame, const fs::path& cache,
+    std::shared_ptr<meshfile::TextureStore> textures) {
     const Stopwatch watch;
     MeshAircraft aircraft;
-    FileHierarchy input = hierarchy_in(file, frame, cache, aircraft);
+    FileHierarchy input = hierarchy_in(file, frame, cache, std::move(textures), aircraft);
     const models::polygons::FileAxes& axes = input.axes.axes;
     aircraft.notes = std::move(input.mesh.notes);
     note_frame(input.axes, input.bounds, frame.scale, file, aircraft.notes);
     aircraft.hierarchy = turned(*input.mesh.mesh, axes, frame.scale);
     aircraft.creases = turned(input.mesh.creases, axes);
+    aircraft.textures = std::move(input.mesh.textures); // nodes keep their numbers
     const models::TriangleMesh far = far_mesh(aircraft.hierarchy);
     aircraft.polygons_error_m = max_distance_m(finest_mesh(*aircraft.hierarchy), far);
     aircraft.polygons = models::polygons::polygons_from_mesh(far);
@@ -243,13 +246,32 @@ MeshAircraft from_hierarchy(const fs::path& file, const AircraftFrameSettings& f
     return aircraft;
 }
 
+/// Decodes the pictures that a chain holds.
+void take_textures(meshfile::LevelChain& chain, meshfile::TextureStore& textures, std::vector<std::string>& notes) {
+    for (meshfile::ChainLevel& level : chain.levels) {
+        for (models::Material& material : level.mesh.materials) {
+            if (!material.picture_bytes) { continue; }
+            try {
+                material.texture.picture = textures.picture_of(material.picture, *material.picture_bytes);
+                material.texture.alpha =
+                    material.texture.picture->is_opaque ? models::TextureAlpha::Opaque : models::TextureAlpha::Mask;
+            } catch (const Error& fault) {
+                const std::string note = fmt::format("{}; its surfaces have their material's colour", fault.what());
+                if (std::ranges::find(notes, note) == notes.end()) { notes.push_back(note); }
+            }
+        }
+    }
+}
+
 /// Levels with an error above that of the polygons are left out.
-MeshAircraft from_chain(const fs::path& file, const AircraftFrameSettings& frame) {
+MeshAircraft from_chain(
+    const fs::path& file, const AircraftFrameSettings& frame, const std::shared_ptr<meshfile::TextureStore>& textures) {
     meshfile::LevelChain chain = meshfile::read_chain(file);
     const AircraftAxes found = aircraft_axes(frame.axes, file, chain.levels.front().mesh);
     const models::polygons::FileAxes& axes = found.axes;
     MeshAircraft aircraft;
     note_frame(found, models::bounds_of(chain.levels.front().mesh), frame.scale, file, aircraft.notes);
+    if (textures) { take_textures(chain, *textures, aircraft.notes); }
     aircraft.polygons =
         chain.polygons ? std::move(*chain.polygons) : models::polygons::polygons_from_mesh(chain.levels.back().mesh);
     aircraft.polygons_error_m = frame.scale * (chain.polygons ? chain.polygons_error_m : chain.levels.back().error_m);
@@ -273,13 +295,15 @@ MeshAircraft from_chain(const fs::path& file, const AircraftFrameSettings& frame
 
 } // namespace
 
-MeshAircraft read_mesh_aircraft(const fs::path& file, const AircraftFrameSettings& frame, const fs::path& cache) {
-    return meshfile::is_chain_file(file) ? from_chain(file, frame) : from_hierarchy(file, frame, cache);
+MeshAircraft read_mesh_aircraft(const fs::path& file, const AircraftFrameSettings& frame, const fs::path& cache,
+    std::shared_ptr<meshfile::TextureStore> textures) {
+    return meshfile::is_chain_file(file) ? from_chain(file, frame, textures)
+                                         : from_hierarchy(file, frame, cache, std::move(textures));
 }
 
 void add_meshes(planning::AircraftModel& model, const MeshAircraft& aircraft) {
     if (aircraft.hierarchy) {
-        planning::add_progressive(model, aircraft.hierarchy, aircraft.polygons_error_m);
+        planning::add_progressive(model, aircraft.hierarchy, aircraft.polygons_error_m, aircraft.textures);
         model.creases = aircraft.creases;
         std::vector<planning::TurningPartMesh> parts;
         for (const RotatingPart& part : aircraft.turning) {

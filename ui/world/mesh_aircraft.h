@@ -2,11 +2,13 @@
 
 #include "models/meshfile/level_chain.h"
 #include "models/meshfile/mesh_file.h"
+#include "models/meshfile/texture_store.h"
 #include "models/polygons/polygon_model.h"
 #include "models/triangle_mesh.h"
 #include "ui/world/aircraft_frame.h"
 #include "visuals/planning/aircraft_model.h"
 #include "visuals/refine/mesh_creases.h"
+#include "visuals/refine/mesh_textures.h"
 #include "visuals/refine/progressive_mesh.h"
 
 #include <filesystem>
@@ -24,6 +26,8 @@ struct MeshAircraft {
     std::shared_ptr<const visuals::refine::ProgressiveMesh> hierarchy;
     /// Of the hierarchy, in body axes; null where it has none.
     std::shared_ptr<const visuals::refine::MeshCreases> creases;
+    /// The pictures on the hierarchy; null where there are none.
+    std::shared_ptr<const visuals::refine::MeshTextures> textures;
     /// Parts that turn, which the hierarchy leaves out; its pivots are those of the polygons.
     std::vector<models::meshfile::RotatingPart> turning;
     /// Transparent surfaces, which the hierarchy leaves out; often none.
@@ -36,9 +40,10 @@ struct MeshAircraft {
 };
 
 /// Reads a chain of levels (.chain), a progressive mesh (.pm) or any other mesh file. A hierarchy is made of the last,
-/// or read from the folder `cache` if that has it; empty: no cache. Throws Error.
-MeshAircraft read_mesh_aircraft(
-    const std::filesystem::path& file, const AircraftFrameSettings& frame, const std::filesystem::path& cache);
+/// or read from the folder `cache` if that has it; empty: no cache. `textures`: where pictures on its surfaces are kept;
+/// null: they become colours of vertices. Throws Error.
+MeshAircraft read_mesh_aircraft(const std::filesystem::path& file, const AircraftFrameSettings& frame,
+    const std::filesystem::path& cache, std::shared_ptr<models::meshfile::TextureStore> textures = {});
 
 /// Adds levels or hierarchy, turning parts and transparent surfaces to the model that was made of the aircraft's
 /// polygons.

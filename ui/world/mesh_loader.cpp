@@ -13,6 +13,7 @@
 #include "ui/base/data_files.h"
 #include "ui/base/progress.h"
 #include "ui/report/child_program.h"
+#include "ui/world/mesh_textures.h"
 #include "ui/world/unpacked_file.h"
 #include "visuals/refine/progressive_file.h"
 #include "visuals/refine/progressive_mesh.h"
@@ -23,10 +24,13 @@
 #include <cstdint>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <system_error>
+#include <tuple>
 #include <utility>
 
 namespace octant::ui::world {
@@ -90,12 +94,23 @@ models::TriangleMesh read_library_mesh(const fs::path& file, const models::meshf
     const base::TemporaryFolder folder;
     const fs::path out = folder.path() / "mesh.obj";
     auto child = report::ChildProgram::start({program.string(), std::string(library.word),
-        options.pictures ? "pictures" : "-", options.backs ? "backs" : "-", file.string(), out.string()});
+        options.textures   ? "textures"
+        : options.pictures ? "pictures"
+                           : "-",
+        options.backs ? "backs" : "-", file.string(), out.string()});
     if (!child) { throw_error_in(program, "expected a program that can be run, got another file"); }
     const report::ProgramResult ending = child->finish();
     if (!ending.succeeded) { refuse(file, library, ending.last_error_line); }
-    models::TriangleMesh mesh = models::meshfile::read_mesh(out);
+    // The colours of pictures came with the vertices; what keeps the pictures themselves has to read them.
+    models::TriangleMesh mesh =
+        models::meshfile::read_mesh(out, {.pictures = options.textures != nullptr, .textures = options.textures});
     mesh.name = file.stem().string();
+    for (models::Material& material : mesh.materials) {
+        if (fs::path(material.picture).parent_path() == folder.path()) { // one that was inside the file
+            material.picture_bytes = std::make_shared<const std::string>(read_file(material.picture, largest_bytes));
+            material.picture = fs::path(material.picture).filename().string();
+        }
+    }
     return mesh;
 }
 
@@ -171,7 +186,30 @@ void note_repairs(const RefineMeshOptions& input, RefineMesh& mesh) {
 
 } // namespace
 
+namespace {
+
+/// Collapses the edges of a repaired mesh. Where pictures lie on it, seams of their coordinates are kept, and the nodes
+/// get places on them; else there are no places.
+std::pair<std::shared_ptr<const refine::ProgressiveMesh>, NodePlaces> hierarchy_of(
+    models::TriangleMesh mesh, const models::simplify::SimplifyOptions& options, std::vector<std::string>& notes) {
+    const std::optional<models::simplify::AttributeSeams> charts = texture_charts(mesh, notes);
+    if (!charts) {
+        return {
+            std::make_shared<const refine::ProgressiveMesh>(models::simplify::fast_sequence(std::move(mesh), options)),
+            {}};
+    }
+    models::CollapseSequence sequence = models::simplify::fast_sequence(charts->marked(), options);
+    sequence.original.normals = std::move(mesh.normals);
+    sequence.original.corner_normals = std::move(mesh.corner_normals);
+    auto made = std::make_shared<const refine::ProgressiveMesh>(sequence);
+    NodePlaces places = node_places(*made, *charts);
+    return {std::move(made), std::move(places)};
+}
+
+} // namespace
+
 RefineMesh make_refine_mesh(const RefineMeshOptions& input, models::TriangleMesh mesh) {
+    const std::vector<models::Material> materials = mesh.materials;
     models::repair::RepairedMesh repaired = models::repair::repaired(std::move(mesh));
     RefineMesh result;
     result.notes = repaired.mesh.notes;
@@ -188,10 +226,14 @@ RefineMesh make_refine_mesh(const RefineMeshOptions& input, models::TriangleMesh
     if (input.base > 0) { options.goal.vertices = input.base; }
     options.show_progress = [&](double share) { progress.show(static_cast<int>(share * steps)); };
     const std::vector<refine::CornerNormals> normals = refine::creased_normals(repaired.mesh);
-    const models::CollapseSequence sequence = models::simplify::fast_sequence(std::move(repaired.mesh), options);
+    NodePlaces places;
+    std::tie(result.mesh, places) = hierarchy_of(std::move(repaired.mesh), options, result.notes);
     progress.finish();
-    result.mesh = std::make_shared<const refine::ProgressiveMesh>(sequence);
     result.creases = refine::mesh_creases(*result.mesh, normals);
+    if (!places.first.empty()) {
+        result.chart_materials = places.chart_materials;
+        result.textures = mesh_textures(std::move(places), materials, result.mesh->node_count());
+    }
     return result;
 }
 
@@ -219,6 +261,13 @@ std::uint64_t hash_of(const models::TriangleMesh& mesh, std::uint64_t seed) {
     add_list(hash, mesh.corner_normals);
     add_list(hash, mesh.triangle_materials);
     for (const models::Material& material : mesh.materials) { hash.add(std::as_bytes(std::span(&material.colour, 1))); }
+    if (has_textures(mesh)) {
+        add_list(hash, mesh.texture_coordinates);
+        add_list(hash, mesh.corner_texture_coordinates);
+        for (const models::Material& material : mesh.materials) {
+            hash.add_word(material.texture.picture != nullptr ? 1 : 0);
+        }
+    }
     return hash.value();
 }
 
@@ -230,6 +279,8 @@ fs::path refine_mesh_cache_file(const fs::path& folder, const models::TriangleMe
 
 RefineMesh cached_refine_mesh(const fs::path& folder, const RefineMeshOptions& input, models::TriangleMesh mesh) {
     const fs::path file = refine_mesh_cache_file(folder, mesh);
+    const bool is_textured = has_textures(mesh);
+    const std::vector<models::Material> materials = is_textured ? mesh.materials : std::vector<models::Material>();
     const std::string key = file.stem().string();
     const CacheFile cache{.cache = "order cache",
         .file = file,
@@ -244,6 +295,14 @@ RefineMesh cached_refine_mesh(const fs::path& folder, const RefineMeshOptions& i
         const auto normals = in.take_list<refine::CornerNormals>();
         in.check(normals.empty() || normals.size() == prepared.mesh->face_count(), "normals for each face, or none");
         prepared.creases = refine::mesh_creases(*prepared.mesh, normals);
+        if (is_textured) {
+            NodePlaces places;
+            places.first = in.take_list<std::uint32_t>();
+            places.places = in.take_list<refine::ChartPlace>();
+            places.chart_materials = in.take_list<std::uint32_t>();
+            prepared.textures = mesh_textures(std::move(places), materials, prepared.mesh->node_count());
+            in.check(prepared.textures != nullptr, "places on pictures that fit the mesh");
+        }
         return prepared;
     };
     std::vector<std::string> notes;
@@ -262,7 +321,14 @@ RefineMesh cached_refine_mesh(const fs::path& folder, const RefineMeshOptions& i
         normals[made.mesh->original_face(face)] = made.creases->corner_normals[face];
     }
     out.put_list(normals);
-    write_cache(cache, out.bytes(), notes);
+    if (made.textures) {
+        out.put_list(made.textures->first);
+        out.put_list(made.textures->places);
+        out.put_list(made.chart_materials);
+    }
+    if (is_textured == (made.textures != nullptr)) { // too many charts are told in each run
+        write_cache(cache, out.bytes(), notes);
+    }
     made.notes.insert(made.notes.end(), notes.begin(), notes.end());
     return made;
 }

@@ -4,9 +4,11 @@
 #include "models/meshfile/mesh_join.h"
 #include "models/triangle_mesh.h"
 #include "visuals/refine/mesh_creases.h"
+#include "visuals/refine/mesh_textures.h"
 #include "visuals/refine/progressive_mesh.h"
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <limits>
 #include <memory>
@@ -25,8 +27,8 @@ models::TriangleMesh load_mesh(const std::string& name_or_file, const models::me
 bool is_library_file(const std::filesystem::path& file);
 
 /// Reads a mesh by a library in a process of its own, with limits of time (25 s) and memory (4 GiB). Of the options
-/// `pictures` and `backs` count. Throws Error "file: ..." in one line, also where the library crashes and where the
-/// program was built without it.
+/// `pictures`, `textures` and `backs` count. Throws Error "file: ..." in one line, also where the library crashes and
+/// where the program was built without it.
 models::TriangleMesh read_library_mesh(
     const std::filesystem::path& file, const models::meshfile::ReadOptions& options = {});
 
@@ -50,6 +52,10 @@ struct RefineMesh {
     std::shared_ptr<const visuals::refine::ProgressiveMesh> mesh;
     /// Null where each vertex has one normal, and for a hierarchy from a file.
     std::shared_ptr<const visuals::refine::MeshCreases> creases;
+    /// The pictures on it; null unless the materials of the mesh have textures.
+    std::shared_ptr<const visuals::refine::MeshTextures> textures;
+    /// For each chart of `textures` its material in the mesh.
+    std::vector<std::uint32_t> chart_materials;
     std::vector<std::string> notes;
     /// Changes made by repair, a line each; also in the notes, after the name of the file.
     std::vector<std::string> repairs;

@@ -18,6 +18,32 @@ struct ModelInstance {
     std::uint32_t first_smooth = 0;
     std::uint32_t smooth_tint = 0;
     std::uint32_t flat_tint = 0;
+    std::uint32_t first_texture = 0; ///< of its model, among those of all models
+};
+
+/// The textures of all loaded models, in buffers that shaders read (texture.glsl).
+class TextureBuffers {
+public:
+    explicit TextureBuffers(const Functions& gl);
+
+    /// Uploads the textures of the models in place of those before. Pictures lose their finest levels where the driver
+    /// has no room for all.
+    void load(std::span<const scene::ModelBuffers> models);
+
+    bool is_empty() const { return is_empty_; }
+
+    /// The number of a model's first texture.
+    std::uint32_t first_texture(std::size_t model) const { return firsts_[model]; }
+
+    void bind() const;
+
+private:
+    const Functions& gl_;
+    Object table_;
+    Object levels_;
+    Object texels_;
+    std::vector<std::uint32_t> firsts_; ///< one a model
+    bool is_empty_ = true;
 };
 
 /// Draws aircraft. From a plan's upload on, each step is one of that plan.
@@ -32,7 +58,19 @@ public:
     bool has_depth_drawn_meshes() const { return has_depth_drawn_meshes_; }
 
     /// Of the last upload's plan. They draw any mesh that comes as scene::ModelVertex.
-    const ProgramPair& programs() const { return lights_pixels_ ? *phong_programs_ : programs_; }
+    const ProgramPair& programs() const {
+        const std::optional<ProgramPair>& other = lights_pixels_ ? phong_programs_ : textured_programs_;
+        return other ? *other : programs_;
+    }
+
+    bool has_textures() const { return !textures_.is_empty(); }
+
+    /// The number of the first texture of a loaded model.
+    std::uint32_t first_texture(std::size_t model) const { return textures_.first_texture(model); }
+
+    /// Prepares a step of aircraft or refined meshes for programs(): which program, and how it blends.
+    void begin_step(const scene::PaintStep& step, const scene::Clip* clip);
+    void end_step(const scene::PaintStep& step);
 
     /// Asserts that every draw names a model, indices and parts that are there.
     void upload(const scene::FramePlan& plan);
@@ -67,7 +105,9 @@ private:
     const Functions& gl_;
     DrawState& state_;
     ProgramPair programs_;
-    std::optional<ProgramPair> phong_programs_; ///< made for the first plan that lights pixels
+    std::optional<ProgramPair> textured_programs_; ///< made for the first models with textures
+    std::optional<ProgramPair> phong_programs_;    ///< made for the first plan that lights pixels
+    TextureBuffers textures_;
     bool lights_pixels_ = false;
     Object model_vertices_;
     Object model_indices_;
@@ -94,10 +134,10 @@ public:
     RefinedPainter(const Functions& gl, DrawState& state);
 
     /// To be called after AircraftPainter::upload, which uploads parts and bits for both.
-    void upload(const scene::FramePlan& plan);
+    void upload(const scene::FramePlan& plan, const AircraftPainter& aircraft);
 
     /// A step of Refined, by the aircraft's programs. No clip = not cut.
-    void draw(const scene::PaintStep& step, const scene::Clip* clip, const ProgramPair& programs);
+    void draw(const scene::PaintStep& step, const scene::Clip* clip, AircraftPainter& aircraft);
 
 private:
     struct BufferRange {

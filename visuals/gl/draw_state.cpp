@@ -26,10 +26,12 @@ constexpr float edge_on_steps = -0x1p23F * 0.02F;
 
 } // namespace
 
-ProgramPair make_program_pair(const Functions& gl, const char* name, const ProgramText& text, const char* defined) {
+ProgramPair make_program_pair(
+    const Functions& gl, const char* name, const ProgramText& text, const std::vector<const char*>& defined) {
     const std::string clipped = std::string(name) + ", cut";
-    if (defined == nullptr) { return {make_program(gl, name, text), make_program(gl, clipped.c_str(), text, {"CUT"})}; }
-    return {make_program(gl, name, text, {defined}), make_program(gl, clipped.c_str(), text, {defined, "CUT"})};
+    std::vector<const char*> both = defined;
+    both.push_back("CUT");
+    return {make_program(gl, name, text, defined), make_program(gl, clipped.c_str(), text, both)};
 }
 
 void DrawState::begin_picture(RowOrder row_order) {
@@ -82,7 +84,7 @@ void DrawState::blend(bool by_alpha) {
     }
 }
 
-void DrawState::blend_by(float opacity) {
+void DrawState::blend_by(float opacity, bool by_alpha) {
     if (opacity >= 1.0F) {
         gl_.disable(GL_BLEND);
         gl_.depth_mask(GL_TRUE);
@@ -90,7 +92,8 @@ void DrawState::blend_by(float opacity) {
     }
     gl_.enable(GL_BLEND);
     gl_.blend_color(0.0F, 0.0F, 0.0F, opacity);
-    gl_.blend_func_separate(GL_CONSTANT_ALPHA, GL_ONE_MINUS_CONSTANT_ALPHA, GL_ZERO, GL_ONE);
+    gl_.blend_func_separate(by_alpha ? GL_SRC_ALPHA : GL_CONSTANT_ALPHA,
+        by_alpha ? GL_ONE_MINUS_SRC_ALPHA : GL_ONE_MINUS_CONSTANT_ALPHA, GL_ZERO, GL_ONE);
     gl_.depth_mask(GL_FALSE);
 }
 

@@ -3,6 +3,8 @@
 #include "visuals/gl/object.h"
 #include "visuals/scene/frame_plan.h"
 
+#include <vector>
+
 namespace octant::visuals::gl {
 
 /// A program of two kinds: for draws that are cut by planes, and for all others, which then pay nothing for the planes.
@@ -13,7 +15,7 @@ struct ProgramPair {
 
 /// Links both kinds, the second with CUT defined, both with `defined`. Throws Error with `name`.
 ProgramPair make_program_pair(
-    const Functions& gl, const char* name, const ProgramText& text, const char* defined = nullptr);
+    const Functions& gl, const char* name, const ProgramText& text, const std::vector<const char*>& defined = {});
 
 /// Where the first row of a picture lies.
 enum class RowOrder {
@@ -38,8 +40,8 @@ public:
     void blend(bool by_alpha);
 
     /// Whether what is drawn covers the picture by this share only, below 1, its depth tested but not written; the
-    /// picture's own alpha stays.
-    void blend_by(float opacity);
+    /// picture's own alpha stays. `by_alpha`: by the alpha of what is drawn, which the share is a part of.
+    void blend_by(float opacity, bool by_alpha = false);
 
     /// Takes the program of the pair that fits; no clip = not cut.
     void use_program(const ProgramPair& programs, const scene::Clip* clip = nullptr);

@@ -37,7 +37,7 @@ Object make_shader(const Functions& gl, const char* name, GLenum kind, const cha
 }
 
 /// The text with definitions behind its first line, which is the #version.
-std::string with_definitions(const char* text, std::initializer_list<const char*> defined) {
+std::string with_definitions(const char* text, std::span<const char* const> defined) {
     std::string whole(text);
     for (const char* const name : defined) {
         whole.insert(whole.find('\n') + 1, std::string("#define ") + name + "\n");
@@ -65,7 +65,7 @@ Object make_texture(const Functions& gl, const char* label) {
 }
 
 Object make_program(
-    const Functions& gl, const char* name, const ProgramText& text, std::initializer_list<const char*> defined) {
+    const Functions& gl, const char* name, const ProgramText& text, std::span<const char* const> defined) {
     Object program(gl, gl.create_program(), [](const Functions& f, GLuint n) { f.delete_program(n); });
     label_object(gl, GL_PROGRAM, program.name(), name);
     const auto attach = [&](GLenum kind, const char* stage) {

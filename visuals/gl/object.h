@@ -63,7 +63,7 @@ struct ProgramText {
 /// A linked program of a vertex and a fragment shader. Throws Error with the first line of what the driver complains
 /// about; `name` says which program. `defined` are defined for the preprocessor of all.
 Object make_program(
-    const Functions& gl, const char* name, const ProgramText& text, std::initializer_list<const char*> defined = {});
+    const Functions& gl, const char* name, const ProgramText& text, std::span<const char* const> defined = {});
 
 /// A buffer that is filled anew for each picture. Its old memory is given up first, so that the driver need not wait
 /// for the picture before; its size only grows.
@@ -98,6 +98,9 @@ constexpr GLuint first_smooth_input = 7;
 constexpr GLuint face_colour_input = 8;
 constexpr GLuint smooth_tint_input = 9;
 constexpr GLuint flat_tint_input = 10;
+constexpr GLuint on_texture_input = 11;
+constexpr GLuint texture_input = 12;
+constexpr GLuint first_texture_input = 13;
 
 /// An input of a vertex shader.
 struct VertexInput {

@@ -172,7 +172,7 @@ void Renderer::upload(const FramePlan& plan, const PixelRect& rect) {
     gl_.bind_buffer_base(GL_UNIFORM_BUFFER, picture_binding, frame_uniforms_.name());
     triangles_.upload(plan);
     aircraft_.upload(plan);
-    refined_.upload(plan);
+    refined_.upload(plan, aircraft_);
     overlay_.upload(plan.overlay, {rect.width, rect.height});
 }
 
@@ -192,7 +192,7 @@ void Renderer::paint(const FramePlan& plan, const DrawTarget& place) {
             aircraft_.draw(step, clip);
             break;
         case PaintStep::Content::Refined:
-            refined_.draw(step, clip, aircraft_.programs());
+            refined_.draw(step, clip, aircraft_);
             break;
         case PaintStep::Content::Transparent:
         case PaintStep::Content::Overlay:

@@ -146,7 +146,7 @@ void TrianglePainter::use_mesh_display(const scene::FramePlan& plan) {
     if (!shows_mesh_) { return; }
     if (!mesh_programs_) {
         mesh_programs_ =
-            make_program_pair(gl_, "ground's mesh", {ground_vert, ground_mesh_frag, ground_mesh_geom}, "MESH");
+            make_program_pair(gl_, "ground's mesh", {ground_vert, ground_mesh_frag, ground_mesh_geom}, {"MESH"});
     }
     const std::array<float, 4> look{
         plan.sample_spacing_m, plan.mesh_display == scene::MeshDisplay::Levels ? 1.0F : 0.0F, 0.0F, 0.0F};
@@ -169,7 +169,7 @@ void TrianglePainter::upload(const scene::FramePlan& plan) {
     use_mesh_display(plan);
     has_polygon_numbers_ = plan.ground_has_polygon_numbers;
     if (has_polygon_numbers_ && !polygon_number_programs_) {
-        polygon_number_programs_ = make_program_pair(gl_, "ground's numbers", {ground_vert, ground_frag}, "NUMBERS");
+        polygon_number_programs_ = make_program_pair(gl_, "ground's numbers", {ground_vert, ground_frag}, {"NUMBERS"});
     }
     use_detail_texture(plan);
     is_textured_ = plan.ground_texture.has_value();

@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
+#include <cmath>
 #include <cstddef>
 #include <limits>
 #include <optional>
@@ -36,11 +37,28 @@ std::vector<glm::vec3> given_or_computed_normals(const models::TriangleMesh& mes
     return normals;
 }
 
+/// The number of a texture in a model's buffers, to which it is added if it is new; 0 for none.
+std::uint32_t texture_number(scene::ModelBuffers& buffers, const models::SurfaceTexture& texture) {
+    if (texture.picture == nullptr) { return 0; }
+    const auto known = std::ranges::find(buffers.textures, texture);
+    const auto number = static_cast<std::uint32_t>(known - buffers.textures.begin()) + 1;
+    if (known == buffers.textures.end()) { buffers.textures.push_back(texture); }
+    return number;
+}
+
 /// Gives the corners of a mesh their places in a vertex buffer.
 class MipLevelBuilder {
 public:
     MipLevelBuilder(scene::ModelBuffers& buffers, const models::TriangleMesh& mesh)
-        : buffers_(buffers), mesh_(mesh), newest_(mesh.vertices_m.size(), models::none) {}
+        : buffers_(buffers), mesh_(mesh), newest_(mesh.vertices_m.size(), models::none),
+          textures_(mesh.materials.size(), 0) {
+        for (std::size_t t = 0; t < mesh.corner_texture_coordinates.size() && !mesh.materials.empty(); ++t) {
+            const std::uint32_t material = mesh.triangle_materials[t];
+            if (textures_[material] == 0) {
+                textures_[material] = texture_number(buffers, mesh.materials[material].texture);
+            }
+        }
+    }
 
     void add(std::uint32_t triangle, std::span<const glm::vec3> normals) {
         std::array<std::uint32_t, 3> corners{};
@@ -53,23 +71,38 @@ public:
     }
 
 private:
+    /// As ModelVertex::texture.
+    std::uint32_t texture_of(std::uint32_t triangle) const {
+        const bool has_coordinates = !mesh_.corner_texture_coordinates.empty() &&
+                                     mesh_.corner_texture_coordinates[triangle][0] != models::invalid_index;
+        return has_coordinates && !mesh_.materials.empty() ? textures_[mesh_.triangle_materials[triangle]] : 0;
+    }
+
+    /// Of the material alone where a picture has the colours.
     std::uint32_t colour_of(std::uint32_t triangle, std::uint32_t vertex) const {
-        return models::packed_colour(
-            mesh_.colours.empty() ? models::material_colour(mesh_, triangle) : mesh_.colours[vertex]);
+        const bool has_own = !mesh_.colours.empty() && texture_of(triangle) == 0;
+        return models::packed_colour(has_own ? mesh_.colours[vertex] : models::material_colour(mesh_, triangle));
     }
 
     /// A drawn vertex that looks like this corner, made where there is none.
     std::uint32_t vertex_of(std::uint32_t triangle, std::size_t corner, const glm::vec3& normal) {
         const std::uint32_t vertex = mesh_.triangles[triangle][corner];
-        const std::uint32_t colour = colour_of(triangle, vertex);
-        for (std::uint32_t at = newest_[vertex]; at != models::none; at = older_[at - first_]) {
-            const scene::ModelVertex& drawn = buffers_.vertices[at];
-            if (drawn.normal == normal && drawn.colour == colour) { return at; }
-        }
         scene::ModelVertex made;
         made.position_m = glm::vec3(mesh_.vertices_m[vertex]);
         made.normal = normal;
-        made.colour = colour;
+        made.colour = colour_of(triangle, vertex);
+        made.texture = texture_of(triangle);
+        if (made.texture != 0) {
+            const glm::vec2& place = mesh_.texture_coordinates[mesh_.corner_texture_coordinates[triangle][corner]];
+            made.on_texture = {place.x, 1.0F - place.y};
+        }
+        for (std::uint32_t at = newest_[vertex]; at != models::none; at = older_[at - first_]) {
+            const scene::ModelVertex& drawn = buffers_.vertices[at];
+            if (drawn.normal == made.normal && drawn.colour == made.colour && drawn.texture == made.texture &&
+                drawn.on_texture == made.on_texture) {
+                return at;
+            }
+        }
         const std::uint32_t at = add_vertex(made);
         older_.back() = newest_[vertex];
         newest_[vertex] = at;
@@ -96,7 +129,9 @@ private:
         is_first_[vertex - first_] = 1;
         buffers_.vertices[vertex].polygon = triangle;
         buffers_.vertices[vertex].face_normal = models::normal_of(mesh_, mesh_.triangles[triangle], {0.0, 0.0, -1.0});
-        buffers_.vertices[vertex].face_colour = models::packed_colour(models::mean_colour(mesh_, triangle));
+        buffers_.vertices[vertex].face_colour =
+            models::packed_colour(texture_of(triangle) == 0 ? models::mean_colour(mesh_, triangle)
+                                                            : models::material_colour(mesh_, triangle));
     }
 
     scene::ModelBuffers& buffers_;
@@ -107,6 +142,8 @@ private:
     /// Another drawn vertex of the same one, by drawn vertex.
     std::vector<std::uint32_t> older_;
     std::vector<std::uint8_t> is_first_;
+    /// For each of the mesh's materials as ModelVertex::texture.
+    std::vector<std::uint32_t> textures_;
 };
 
 } // namespace
@@ -221,6 +258,9 @@ class BufferBuilder {
 public:
     BufferBuilder(const models::polygons::PolygonModel& model, std::span<const glm::vec3> normals)
         : model_(model), normals_(normals) {
+        for (const models::Material& material : model.materials) {
+            textures_.push_back(texture_number(buffers_, material.texture));
+        }
         for (std::uint32_t i = 0; i < model.polygons.size(); ++i) {
             add_corners(i);
             apexes_.push_back(fan_corner(model, i));
@@ -255,8 +295,14 @@ private:
         const std::optional<std::uint32_t> pivot = models::polygons::pivot_of(model_, polygon);
         const std::uint32_t part = pivot ? *pivot + 1 : 0;
         for (const std::uint32_t vertex : model_.corners(polygon)) {
-            buffers_.vertices.push_back({glm::vec3(model_.vertices_m[vertex]), normals_[buffers_.vertices.size()],
-                normal, colour, colour, part, static_cast<std::uint32_t>(polygon)});
+            const std::size_t corner = buffers_.vertices.size();
+            buffers_.vertices.push_back({glm::vec3(model_.vertices_m[vertex]), normals_[corner], normal, colour, colour,
+                part, static_cast<std::uint32_t>(polygon)});
+            if (model_.corner_texture_coordinates.empty()) { continue; }
+            const glm::vec2& place = model_.corner_texture_coordinates[corner];
+            if (std::isnan(place.x)) { continue; }
+            buffers_.vertices.back().on_texture = {place.x, 1.0F - place.y};
+            buffers_.vertices.back().texture = textures_[model_.polygons[polygon].material];
         }
     }
 
@@ -264,17 +310,20 @@ private:
     std::span<const glm::vec3> normals_;
     /// The first corner of each polygon's fan.
     std::vector<std::uint32_t> apexes_;
+    /// For each of the model's materials as ModelVertex::texture.
+    std::vector<std::uint32_t> textures_;
     scene::ModelBuffers buffers_;
 };
 
 /// A model in which every vertex on a side of a polygon is also a corner of it, so that renderers round both alike:
 /// where a side has no corner of its own in such a place, single pixels between the two may belong to neither. Normals
-/// there are those of the side.
+/// and texture coordinates there are those of the side.
 models::polygons::PolygonModel closed(models::polygons::PolygonModel model, std::vector<glm::vec3>& normals) {
     const auto on_sides = models::planar::t_junctions(model);
     if (on_sides.empty()) { return model; }
     std::vector<std::uint32_t> corners;
     std::vector<glm::vec3> corner_normals;
+    const std::vector<glm::vec2> places = std::exchange(model.corner_texture_coordinates, {});
     auto next = on_sides.begin();
     for (models::polygons::Polygon& polygon : model.polygons) {
         const std::size_t first = polygon.first_corner;
@@ -284,11 +333,16 @@ models::polygons::PolygonModel closed(models::polygons::PolygonModel model, std:
             const std::size_t corner = first + k;
             corners.push_back(model.corner_vertices[corner]);
             corner_normals.push_back(normals[corner]);
-            const glm::vec3& end = normals[first + (k + 1) % count];
+            const std::size_t other = first + (k + 1) % count;
+            const glm::vec3& end = normals[other];
+            if (!places.empty()) { model.corner_texture_coordinates.push_back(places[corner]); }
             for (; next != on_sides.end() && next->corner == corner; ++next) {
                 const auto share = static_cast<float>(next->share);
                 corners.push_back(next->vertex);
                 corner_normals.push_back(glm::mix(normals[corner], end, share));
+                if (!places.empty()) {
+                    model.corner_texture_coordinates.push_back(glm::mix(places[corner], places[other], share));
+                }
             }
         }
         polygon.corner_count = static_cast<std::uint32_t>(corners.size()) - polygon.first_corner;
@@ -341,7 +395,7 @@ AircraftModel aircraft_model(models::polygons::PolygonModel polygons, draworder:
     scene::ModelBuffers buffers = maker.take();
     return {std::move(polygons), std::move(order), std::move(buffers), first_vertices_of(drawn),
         std::move(first_indices), all, std::move(file_list), hull, {radius_m, eye_m}, std::move(shaded), {}, nullptr,
-        {0.0}};
+        nullptr, {0.0}};
 }
 
 namespace {
@@ -366,8 +420,11 @@ void add_levels(AircraftModel& model, std::span<const MeshSource> sources, doubl
     assert(std::ranges::is_sorted(model.errors_m));
 }
 
-void add_progressive(
-    AircraftModel& model, std::shared_ptr<const refine::ProgressiveMesh> mesh, double polygons_error_m) {
+void add_progressive(AircraftModel& model, std::shared_ptr<const refine::ProgressiveMesh> mesh, double polygons_error_m,
+    std::shared_ptr<const refine::MeshTextures> textures) {
+    assert(model.buffers.textures.empty());
+    if (textures) { model.buffers.textures = textures->textures; }
+    model.progressive_textures = std::move(textures);
     const glm::dvec3& origin_m = mesh->parts().origin_m;
     for (std::uint32_t node = 0; node < mesh->node_count(); ++node) {
         include(model, origin_m + glm::dvec3(mesh->position_m(node)));

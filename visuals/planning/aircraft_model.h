@@ -7,6 +7,7 @@
 #include "visuals/overlay/instrument_panel.h"
 #include "visuals/planning/bounding_box.h"
 #include "visuals/refine/mesh_creases.h"
+#include "visuals/refine/mesh_textures.h"
 #include "visuals/refine/progressive_mesh.h"
 #include "visuals/scene/camera_rig.h"
 #include "visuals/scene/frame_plan.h"
@@ -36,8 +37,9 @@ struct MeshLevel {
     shading::ShadedPolygons shaded;
 };
 
-/// Appends a mesh to a model's buffers: equal corners share a vertex, but the first corner of each triangle has its
-/// own. Normals are the mesh's own where it has any, else by crease angle. Loading work.
+/// Appends a mesh to a model's buffers, with the textures of its materials: equal corners share a vertex, but the first
+/// corner of each triangle has its own. Normals are the mesh's own where it has any, else by crease angle. Loading
+/// work.
 MeshLevel append_level(scene::ModelBuffers& buffers, const MeshSource& source);
 
 /// The index of the representation to draw: the coarsest whose error is at most `max_m`, or else the finest.
@@ -75,6 +77,8 @@ struct AircraftModel {
     std::vector<MeshLevel> levels;
     /// Instead of levels: a mesh that is refined in each frame. Body axes.
     std::shared_ptr<const refine::ProgressiveMesh> progressive;
+    /// The pictures on the progressive mesh; null where there are none. They come first in ModelBuffers::textures.
+    std::shared_ptr<const refine::MeshTextures> progressive_textures;
     /// One for each representation.
     std::vector<double> errors_m;
     /// With a progressive mesh: the triangles of turning parts, which turn by the pivots of the polygons. All have
@@ -113,10 +117,10 @@ AircraftModel aircraft_model(models::polygons::PolygonModel polygons, draworder:
 /// representation. Errors must ascend (asserted). Loading work.
 void add_levels(AircraftModel& model, std::span<const MeshSource> sources, double polygons_error_m);
 
-/// Adds a mesh that is refined in each frame. Far away, where `polygons_error_m` is small enough, the ordered polygons
-/// are drawn. Loading work.
-void add_progressive(
-    AircraftModel& model, std::shared_ptr<const refine::ProgressiveMesh> mesh, double polygons_error_m);
+/// Adds a mesh that is refined in each frame, before any other mesh of the model (asserted), with the pictures on it
+/// (null: none). Far away, where `polygons_error_m` is small enough, the ordered polygons are drawn. Loading work.
+void add_progressive(AircraftModel& model, std::shared_ptr<const refine::ProgressiveMesh> mesh, double polygons_error_m,
+    std::shared_ptr<const refine::MeshTextures> textures = {});
 
 /// A part of a mesh aircraft that turns by a pivot of its polygons.
 struct TurningPartMesh {

@@ -52,6 +52,8 @@ std::uint32_t number_count(const AircraftModel& model) {
 /// The model's vertices with the numbers of their polygons for colours, counted from `first`.
 scene::ModelBuffers numbered(const AircraftModel& model, std::uint32_t first) {
     scene::ModelBuffers buffers = model.buffers;
+    buffers.textures.clear();
+    for (scene::ModelVertex& vertex : buffers.vertices) { vertex.texture = 0; }
     const std::uint32_t count = number_count(model);
     if (first + count + buffers.vertices.size() > number_mask) {
         throw Error(fmt::format("pictures of polygon numbers: expected less than {} polygons and corners in all, got "

@@ -2,10 +2,12 @@
 
 #include "visuals/planning/aircraft_model.h"
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <utility>
 
@@ -41,8 +43,10 @@ std::uint32_t mean_colour(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
 
 RefinedAircraft::RefinedAircraft(std::shared_ptr<const refine::ProgressiveMesh> mesh,
     const refine::ViewRefinerOptions& options, const scene::ShadingSettings& shading,
-    std::shared_ptr<const refine::MeshCreases> creases)
-    : refiner_(std::move(mesh), options), creases_(std::move(creases)), selector_(shading_rule_of(shading)),
+    std::shared_ptr<const refine::MeshTextures> textures, std::shared_ptr<const refine::MeshCreases> creases)
+    : refiner_(std::move(mesh), options, textures),
+      textures_(shading.show_model == scene::ModelDisplay::None ? std::move(textures) : nullptr),
+      creases_(std::move(creases)), selector_(shading_rule_of(shading)),
       shows_levels_(shading.show_model == scene::ModelDisplay::Levels) {}
 
 refine::RefinedFrame RefinedAircraft::update(const glm::dmat4& body_to_eye_world, const FrameView& view, bool first) {
@@ -83,6 +87,42 @@ scene::ModelVertex RefinedAircraft::drawn(std::uint32_t slot) const {
     return drawn;
 }
 
+/// Puts a slot's vertex on the picture of a chart.
+void RefinedAircraft::put_on_texture(scene::ModelVertex& vertex, std::uint32_t slot, std::uint32_t number) const {
+    const refine::ChartSurface& chart = textures_->charts[number];
+    vertex.texture = chart.texture;
+    if (chart.texture == 0) { return; }
+    vertex.colour = chart.colour;
+    vertex.on_texture = refiner_.place_on_picture(slot, number);
+}
+
+/// Gives the slots whose nodes lie on several charts a vertex for each but the first.
+void RefinedAircraft::add_chart_vertices() {
+    chart_vertices_.resize(slot_count_);
+    for (std::uint32_t slot = 0; slot < slot_count_; ++slot) {
+        const std::uint32_t node = refiner_.front().node_at(slot);
+        if (node == refine::none) { continue; }
+        const auto places = textures_->places_of(node);
+        if (places.size() < 2) { continue; }
+        chart_vertices_[slot] = static_cast<std::uint32_t>(vertices_.size());
+        const scene::ModelVertex plain = drawn(slot);
+        for (const refine::ChartPlace& at : places.subspan(1)) {
+            vertices_.push_back(plain);
+            put_on_texture(vertices_.back(), slot, at.chart);
+        }
+    }
+}
+
+/// The vertex of a slot on a chart that its node touches; without textures the slot.
+std::uint32_t RefinedAircraft::corner_vertex(std::uint32_t slot, std::uint32_t chart) const {
+    if (!textures_) { return slot; }
+    const auto places = textures_->places_of(refiner_.front().node_at(slot));
+    if (places.front().chart == chart) { return slot; }
+    const auto at = std::ranges::lower_bound(places, chart, {}, &refine::ChartPlace::chart);
+    assert(at != places.end() && at->chart == chart);
+    return chart_vertices_[slot] + static_cast<std::uint32_t>(at - places.begin() - 1);
+}
+
 /// Takes over what has been written of the front's vertices.
 void RefinedAircraft::follow_front() {
     refine::SelectiveRefiner& front = refiner_.front();
@@ -92,7 +132,11 @@ void RefinedAircraft::follow_front() {
     points_.resize(slot_count_);
     for (const refine::SlotRange& range : ranges_) {
         for (std::size_t slot = range.first; slot < range.end; ++slot) {
-            const scene::ModelVertex vertex = drawn(static_cast<std::uint32_t>(slot));
+            scene::ModelVertex vertex = drawn(static_cast<std::uint32_t>(slot));
+            const std::uint32_t node = refiner_.front().node_at(static_cast<std::uint32_t>(slot));
+            if (textures_ && node != refine::none) {
+                put_on_texture(vertex, static_cast<std::uint32_t>(slot), textures_->places_of(node).front().chart);
+            }
             vertices_[slot] = vertex;
             points_[slot] = {vertex.position_m, vertex.normal, colour_sum(vertex.colour)};
         }
@@ -164,20 +208,27 @@ std::uint32_t RefinedAircraft::creased_vertex(
 }
 
 void RefinedAircraft::write_indices() {
-    const auto shared = refiner_.front().indices();
+    const refine::SelectiveRefiner& front = refiner_.front();
+    const auto shared = front.indices();
     const auto smooth = selector_.smooth();
+    const std::vector<std::uint16_t>& charts = front.mesh().parts().face_materials;
+    const bool all_smooth = !choosing_ && !all_flat_;
+    if (textures_) { add_chart_vertices(); }
     indices_.clear();
     for (std::size_t place = 0; 3 * place < shared.size(); ++place) {
-        const auto corners = shared.subspan(3 * place, 3);
-        if (corners[0] == corners[1]) {
+        const auto slots = shared.subspan(3 * place, 3);
+        if (slots[0] == slots[1]) {
             continue; // a place without a triangle
         }
-        if (all_flat_ || (choosing_ && smooth[place] == 0)) {
+        const std::uint32_t chart = textures_ && !charts.empty() ? charts[front.face_at(place)] : 0;
+        const std::array<std::uint32_t, 3> corners{
+            corner_vertex(slots[0], chart), corner_vertex(slots[1], chart), corner_vertex(slots[2], chart)};
+        if (!all_smooth && (all_flat_ || smooth[place] == 0)) {
             write_flat(corners);
             continue;
         }
-        const std::uint32_t face = refiner_.front().face_at(place);
-        for (std::size_t k = 0; k < 3; ++k) { indices_.push_back(creased_vertex(corners[k], corners[k], face, k)); }
+        const std::uint32_t face = front.face_at(place);
+        for (std::size_t k = 0; k < 3; ++k) { indices_.push_back(creased_vertex(corners[k], slots[k], face, k)); }
     }
 }
 
@@ -186,12 +237,12 @@ scene::RefinedDraw RefinedAircraft::draw() {
     assert(!choosing_ || !front_changed_);
     if (drawn_changed_) {
         follow_front();
-        if (!all_smooth || creases_) { write_indices(); }
+        if (!all_smooth || textures_ || creases_) { write_indices(); }
     }
     drawn_changed_ = false;
     scene::RefinedDraw draw;
     draw.vertices = vertices_;
-    draw.indices = all_smooth && !creases_ ? refiner_.front().indices() : indices_;
+    draw.indices = all_smooth && !textures_ && !creases_ ? refiner_.front().indices() : indices_;
     return draw;
 }
 

@@ -2,6 +2,7 @@
 
 #include "visuals/planning/frame_view.h"
 #include "visuals/refine/mesh_creases.h"
+#include "visuals/refine/mesh_textures.h"
 #include "visuals/refine/view_refiner.h"
 #include "visuals/scene/frame_plan.h"
 #include "visuals/scene/settings.h"
@@ -25,9 +26,10 @@ shading::ShadingRuleSettings shading_rule_of(const scene::ShadingSettings& setti
 /// mesh that have changed since the last frame are computed again.
 class RefinedAircraft {
 public:
-    /// The hierarchy is in body axes. `creases` may be null.
+    /// The hierarchy is in body axes. `textures`: the pictures on it; `creases`: its normals at creases; null: none.
     RefinedAircraft(std::shared_ptr<const refine::ProgressiveMesh> mesh, const refine::ViewRefinerOptions& options,
-        const scene::ShadingSettings& shading, std::shared_ptr<const refine::MeshCreases> creases = nullptr);
+        const scene::ShadingSettings& shading, std::shared_ptr<const refine::MeshTextures> textures = {},
+        std::shared_ptr<const refine::MeshCreases> creases = {});
 
     /// Refines the mesh for a frame; does nothing where nothing has moved. `first`: the aircraft was not drawn as this
     /// mesh in the last frame; the mesh is then refined fully, without geomorphs.
@@ -50,6 +52,9 @@ public:
 
 private:
     scene::ModelVertex drawn(std::uint32_t slot) const;
+    void put_on_texture(scene::ModelVertex& vertex, std::uint32_t slot, std::uint32_t number) const;
+    void add_chart_vertices();
+    std::uint32_t corner_vertex(std::uint32_t slot, std::uint32_t chart) const;
     void follow_front();
     void follow_labels();
     void write_indices();
@@ -57,6 +62,8 @@ private:
     std::uint32_t creased_vertex(std::uint32_t vertex, std::uint32_t slot, std::uint32_t face, std::size_t corner);
 
     refine::ViewRefiner refiner_;
+    /// Null where none are shown.
+    std::shared_ptr<const refine::MeshTextures> textures_;
     std::shared_ptr<const refine::MeshCreases> creases_;
     shading::DynamicMeshSelector selector_;
     bool shows_levels_;
@@ -68,8 +75,11 @@ private:
     bool front_changed_ = true;
     /// Whether anything has changed since draw().
     bool drawn_changed_ = true;
-    /// The number of vertices_ that are slots of the front; those of flat triangles follow.
+    /// The number of vertices_ that are slots of the front. With textures each lies on the first chart of its node, and
+    /// those on its further charts follow; last come the first vertices of flat triangles.
     std::size_t slot_count_ = 0;
+    /// For each slot its vertex on the second chart of its node; with textures only.
+    std::vector<std::uint32_t> chart_vertices_;
     std::vector<scene::ModelVertex> vertices_;
     /// One for each slot.
     std::vector<shading::ShadingPoint> points_;

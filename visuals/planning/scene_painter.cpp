@@ -652,6 +652,7 @@ private:
             return;
         }
         scene::RefinedDraw draw = frame_->fleet.refined()[aircraft.number]->draw();
+        draw.model = aircraft.model_index;
         draw.first_part = aircraft.first_part;
         draw.first_smooth = frame_->smooth.refined_word_index();
         draw.tints = aircraft.tints;

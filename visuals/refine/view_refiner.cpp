@@ -14,8 +14,10 @@
 #include <glm/geometric.hpp>
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
+#include <span>
 #include <utility>
 
 namespace octant::visuals::refine {
@@ -60,6 +62,42 @@ Geomorphs::Move* Geomorphs::find(std::uint32_t slot) {
     return slot < places_.size() && places_[slot] != none ? &moves_[places_[slot]] : nullptr;
 }
 
+const Geomorphs::Move* Geomorphs::find(std::uint32_t slot) const {
+    return slot < places_.size() && places_[slot] != none ? &moves_[places_[slot]] : nullptr;
+}
+
+namespace {
+
+/// The place on a chart of a list that has it.
+const glm::vec2& place_in(std::span<const ChartPlace> places, std::uint32_t chart) {
+    const auto at = std::ranges::lower_bound(places, chart, {}, &ChartPlace::chart);
+    assert(at != places.end() && at->chart == chart);
+    return at->place;
+}
+
+} // namespace
+
+/// Where the vertex of a node is drawn on all charts that the node touches, by a move (null: it rests); none without
+/// textures.
+std::vector<ChartPlace> Geomorphs::drawn_places(std::uint32_t node, const Move* move) const {
+    if (textures_ == nullptr) { return {}; }
+    const auto own = textures_->places_of(node);
+    std::vector<ChartPlace> drawn(own.begin(), own.end());
+    for (ChartPlace& at : drawn) {
+        if (move == nullptr) { continue; }
+        at.place = glm::mix(place_in(move->from_places, at.chart),
+            place_in(textures_->places_of(move->target), at.chart), static_cast<float>(move->share));
+    }
+    return drawn;
+}
+
+glm::vec2 Geomorphs::place(const SelectiveRefiner& refiner, std::uint32_t slot, std::uint32_t chart) const {
+    const Move* move = find(slot);
+    if (move == nullptr) { return place_in(textures_->places_of(refiner.node_at(slot)), chart); }
+    return glm::mix(place_in(move->from_places, chart), place_in(textures_->places_of(move->target), chart),
+        static_cast<float>(move->share));
+}
+
 void Geomorphs::add(const Move& move) {
     if (Move* known = find(move.slot)) {
         *known = move;
@@ -90,15 +128,16 @@ void Geomorphs::start(const SelectiveRefiner& refiner, std::uint32_t split_node)
     const std::uint32_t first = refiner.slot(split.first);
     const Move* known = find(first);
     const RefinedVertex from = known != nullptr ? drawn(refiner, *known) : refiner.vertex_of(split_node);
-    add({first, split.first, from, 0.0});
-    add({refiner.slot(split.second), split.second, from, 0.0});
+    const std::vector<ChartPlace> places = drawn_places(split_node, known);
+    add({first, split.first, from, 0.0, places});
+    add({refiner.slot(split.second), split.second, from, 0.0, places});
 }
 
 void Geomorphs::retarget(const SelectiveRefiner& refiner, std::uint32_t slot, std::uint32_t target) {
     const Move* known = find(slot);
     if (known != nullptr && known->target == target) { return; }
     const RefinedVertex from = known != nullptr ? drawn(refiner, *known) : refiner.vertex_of(refiner.node_at(slot));
-    add({slot, target, from, 0.0});
+    add({slot, target, from, 0.0, drawn_places(refiner.node_at(slot), known)});
 }
 
 std::uint32_t Geomorphs::target(std::uint32_t slot) const {
@@ -129,9 +168,11 @@ std::size_t Geomorphs::move(SelectiveRefiner& refiner, const RefineView& view) {
     return moved;
 }
 
-ViewRefiner::ViewRefiner(std::shared_ptr<const ProgressiveMesh> mesh, const ViewRefinerOptions& options)
-    : options_(options), refiner_(std::move(mesh), {.records_splits = true, .repair = options.repair}),
-      moves_(options.geomorph) {}
+ViewRefiner::ViewRefiner(std::shared_ptr<const ProgressiveMesh> mesh, const ViewRefinerOptions& options,
+    std::shared_ptr<const MeshTextures> textures)
+    : options_(options), textures_(std::move(textures)),
+      refiner_(std::move(mesh), {.records_splits = true, .repair = options.repair}),
+      moves_(options.geomorph, textures_.get()) {}
 
 RefinedFrame ViewRefiner::update(const RefineView& view) {
     if (settled_ && has_view_ && view == view_) { return {}; }

@@ -1,7 +1,10 @@
 #pragma once
 
+#include "visuals/refine/mesh_textures.h"
 #include "visuals/refine/refine_criterion.h"
 #include "visuals/refine/selective_refiner.h"
+
+#include <glm/vec2.hpp>
 
 #include <cstddef>
 #include <cstdint>
@@ -23,7 +26,9 @@ struct GeomorphOptions {
 /// parent's position, and only then is the edge collapsed.
 class Geomorphs {
 public:
-    explicit Geomorphs(GeomorphOptions options) : options_(options) {}
+    /// `textures`: the pictures on the hierarchy, on which vertices travel, too; null: none. They must outlive it.
+    explicit Geomorphs(GeomorphOptions options, const MeshTextures* textures = nullptr)
+        : options_(options), textures_(textures) {}
 
     /// Starts the two vertices of a node that was just split from where that node's vertex was drawn. To be called once
     /// for each split, in the order of the splits.
@@ -37,6 +42,9 @@ public:
 
     /// Whether a slot's vertex is at the position it was sent to.
     bool has_arrived(std::uint32_t slot) const;
+
+    /// Where a slot's vertex is drawn on the picture of a chart that its node touches. Needs textures.
+    glm::vec2 place(const SelectiveRefiner& refiner, std::uint32_t slot, std::uint32_t chart) const;
 
     /// Ends the motion of a slot's vertex: it is drawn at its node from now on.
     void forget(std::uint32_t slot);
@@ -63,13 +71,19 @@ private:
         std::uint32_t target = none;
         RefinedVertex from;
         double share = 0.0; ///< The share of the way that is done, 0 to 1.
+        /// Where it started on the pictures of all charts that its node touches, by ascending charts; with textures
+        /// only.
+        std::vector<ChartPlace> from_places = {};
     };
 
     Move* find(std::uint32_t slot);
+    const Move* find(std::uint32_t slot) const;
     void add(const Move& move);
     RefinedVertex drawn(const SelectiveRefiner& refiner, const Move& move) const;
+    std::vector<ChartPlace> drawn_places(std::uint32_t node, const Move* move) const;
 
     GeomorphOptions options_;
+    const MeshTextures* textures_ = nullptr;
     std::vector<Move> moves_;
     std::vector<std::uint32_t> places_; ///< For each slot its index in moves_, or `none`.
 };
@@ -106,7 +120,9 @@ struct RefinedFrame {
 /// The same sequence of views gives the same meshes.
 class ViewRefiner {
 public:
-    explicit ViewRefiner(std::shared_ptr<const ProgressiveMesh> mesh, const ViewRefinerOptions& options = {});
+    /// `textures`: the pictures on the mesh; null: none.
+    explicit ViewRefiner(std::shared_ptr<const ProgressiveMesh> mesh, const ViewRefinerOptions& options = {},
+        std::shared_ptr<const MeshTextures> textures = {});
 
     /// Advances by one frame: splits the largest errors, mends fold-overs, collapses the smallest errors and
     /// moves vertices. While the view does not change and everything is settled, nothing is computed.
@@ -118,6 +134,11 @@ public:
 
     /// Returns to the base mesh and forgets all frames, as in a new refiner. Memory is kept.
     void restart();
+
+    /// Where a slot's vertex is drawn on the picture of a chart that its node touches. Needs textures.
+    glm::vec2 place_on_picture(std::uint32_t slot, std::uint32_t chart) const {
+        return moves_.place(refiner_, slot, chart);
+    }
 
     const SelectiveRefiner& front() const { return refiner_; }
 
@@ -168,6 +189,7 @@ private:
     bool needs_resting(std::uint32_t node);
 
     ViewRefinerOptions options_;
+    std::shared_ptr<const MeshTextures> textures_;
     SelectiveRefiner refiner_;
     Geomorphs moves_;
     RefineView view_;

@@ -2,6 +2,7 @@
 
 #include "models/colour_vertex.h"
 #include "models/surface_class.h"
+#include "models/texture.h"
 #include "visuals/scene/detail_pattern.h"
 #include "visuals/scene/land_cover_contrast.h"
 
@@ -26,9 +27,9 @@
 
 namespace octant::visuals::scene {
 
-/// A vertex of an aircraft as a renderer loads it once. Body axes x forward, y right, z down. 52 bytes. The normal
+/// A vertex of an aircraft as a renderer loads it once. Body axes x forward, y right, z down. 64 bytes. The normal
 /// lights a smooth polygon at this corner; face normal and face colour belong to the flat polygon that begins at this
-/// vertex.
+/// vertex. The corners of a triangle have the same texture; its colour is multiplied by that of both kinds of polygons.
 struct ModelVertex {
     glm::vec3 position_m{0.0F};
     glm::vec3 normal{0.0F};
@@ -41,6 +42,11 @@ struct ModelVertex {
     std::uint32_t part = 0;
     /// Polygon that begins here: a bit of FramePlan::smooth, counted on from the draw's `first_smooth`.
     std::uint32_t polygon = 0;
+    /// Where the vertex lies on its texture: shares of its width to the right and of its height down from its upper
+    /// left corner; any numbers, as textures go on beyond their edges.
+    glm::vec2 on_texture{0.0F};
+    /// 0 = no texture, k = ModelBuffers::textures[k - 1] of the model.
+    std::uint32_t texture = 0;
 };
 
 /// What a renderer loads once for an aircraft: all draw lists lie in one index buffer.
@@ -48,6 +54,10 @@ struct ModelBuffers {
     std::vector<ModelVertex> vertices;
     /// Triangles. The first corner of each belongs to it, or to a polygon that it is a part of, alone.
     std::vector<std::uint32_t> indices;
+    /// What ModelVertex::texture counts in, also for the refined meshes of this model; often none. Their pictures are
+    /// there (not null). TextureAlpha::Blend counts in steps with an opacity below 1, whose opacity it multiplies; in
+    /// other steps there is none.
+    std::vector<models::SurfaceTexture> textures;
     /// Whether a plan may draw it by depth though its polygons are painted in order: it has levels of detail, or is
     /// refined in each frame.
     bool has_depth_drawn_meshes = false;
@@ -148,7 +158,7 @@ struct IndexRange {
     std::uint32_t first_polygon = 0;
 };
 
-/// Colours that polygons are shown in instead of their own, as ColourVertex::colour; 0 = their own.
+/// Colours that polygons are shown in instead of their own, without textures, as ColourVertex::colour; 0 = their own.
 struct PolygonTints {
     std::uint32_t smooth = 0;
     std::uint32_t flat = 0;
@@ -184,6 +194,8 @@ struct RefinedDraw {
     PolygonTints tints{};
     /// As AircraftDraw::object.
     std::uint32_t object = 0;
+    /// Index into the models that the renderer has loaded: the mesh has the textures of this one.
+    std::uint32_t model = 0;
 };
 
 /// Triangles that lie in world axes with the eye subtracted. Memory stays with the maker of the plan until the next

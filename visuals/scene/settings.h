@@ -90,6 +90,8 @@ struct SurfaceSettings {
     bool effects = false;
     /// The largest error of a mesh's level of detail on the screen.
     double aircraft_error_px = 1.0;
+    /// Whether the pictures on aircraft are drawn; else they become colours of vertices.
+    bool textures = false;
 
     bool operator==(const SurfaceSettings&) const = default;
 };

@@ -126,24 +126,50 @@ glm::dvec3 middle_of(const models::polygons::PolygonModel& model, std::size_t po
 
 } // namespace
 
-std::vector<glm::vec3> piece_normals(const models::polygons::PolygonModel& whole, std::span<const glm::vec3> normals,
-    const models::polygons::PolygonModel& pieces) {
-    assert(normals.size() == whole.corner_vertices.size());
+namespace {
+
+/// Calls set(corner, value, polygon) for each corner of `pieces`: the mixture of the values at the corners of its
+/// polygon of `whole`, whose index is `polygon`.
+template <class Set>
+void for_each_piece_corner(const models::polygons::PolygonModel& whole, std::span<const glm::vec3> values,
+    const models::polygons::PolygonModel& pieces, const Set& set) {
+    assert(values.size() == whole.corner_vertices.size());
     std::unordered_map<std::uint32_t, std::vector<std::size_t>> of_parent;
     for (std::size_t i = 0; i < whole.polygons.size(); ++i) { of_parent[whole.parent_of(i)].push_back(i); }
-    std::vector<glm::vec3> made(pieces.corner_vertices.size());
     for (std::size_t i = 0; i < pieces.polygons.size(); ++i) {
         const auto candidates = of_parent.find(pieces.parent_of(i));
         assert(candidates != of_parent.end());
         const std::size_t polygon = polygon_around(whole, candidates->second, middle_of(pieces, i));
-        const Outline outline = outline_of(whole, polygon, normals);
+        const Outline outline = outline_of(whole, polygon, values);
         std::size_t corner = pieces.polygons[i].first_corner;
         for (const std::uint32_t vertex : pieces.corners(i)) {
-            const glm::dvec3 normal = normal_at(outline, pieces.vertices_m[vertex]);
-            const double length = glm::length(normal);
-            made[corner++] = glm::vec3(length > 0.0 ? normal / length : models::polygons::normal_of(whole, polygon));
+            set(corner++, normal_at(outline, pieces.vertices_m[vertex]), polygon);
         }
     }
+}
+
+} // namespace
+
+std::vector<glm::vec3> piece_normals(const models::polygons::PolygonModel& whole, std::span<const glm::vec3> normals,
+    const models::polygons::PolygonModel& pieces) {
+    std::vector<glm::vec3> made(pieces.corner_vertices.size());
+    for_each_piece_corner(
+        whole, normals, pieces, [&](std::size_t corner, const glm::dvec3& normal, std::size_t polygon) {
+            const double length = glm::length(normal);
+            made[corner] = glm::vec3(length > 0.0 ? normal / length : models::polygons::normal_of(whole, polygon));
+        });
+    return made;
+}
+
+std::vector<glm::vec2> piece_texture_coordinates(
+    const models::polygons::PolygonModel& whole, const models::polygons::PolygonModel& pieces) {
+    assert(whole.corner_texture_coordinates.size() == whole.corner_vertices.size());
+    std::vector<glm::vec3> values; // the third part counts the weights
+    for (const glm::vec2& place : whole.corner_texture_coordinates) { values.emplace_back(place.x, place.y, 1.0F); }
+    std::vector<glm::vec2> made(pieces.corner_vertices.size());
+    for_each_piece_corner(whole, values, pieces, [&](std::size_t corner, const glm::dvec3& sum, std::size_t) {
+        made[corner] = glm::vec2(glm::dvec2(sum.x, sum.y) / sum.z);
+    });
     return made;
 }
 

@@ -5,6 +5,7 @@
 #include "sim/base/units.h"
 
 #include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
 #include <cmath>
@@ -22,6 +23,11 @@ namespace octant::visuals::shading {
 /// parents of `pieces` are the polygons of `whole`. Returns one unit normal for each corner of `pieces`.
 std::vector<glm::vec3> piece_normals(const models::polygons::PolygonModel& whole, std::span<const glm::vec3> normals,
     const models::polygons::PolygonModel& pieces);
+
+/// Texture coordinates for the corners of such pieces, from those of the whole polygons, which have one for each corner
+/// (asserted): linear along sides, by mean value coordinates inside. Not numbers (NaN) where a whole polygon has none.
+std::vector<glm::vec2> piece_texture_coordinates(
+    const models::polygons::PolygonModel& whole, const models::polygons::PolygonModel& pieces);
 
 /// The angle between two vectors of any length, 0 to pi.
 inline double angle_rad(const glm::dvec3& one, const glm::dvec3& other) {

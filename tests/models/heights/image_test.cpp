@@ -103,8 +103,9 @@ TEST_CASE("what is no image of 8 bits is refused in one line") {
     CHECK_THROWS_WITH(read_image(deep), deep.string() + ": expected 8 bits a colour part (Byte), got UInt16");
     const auto text = scratch_file("words.png");
     std::ofstream(text) << "no picture at all\n";
-    CHECK_THROWS_WITH(read_image(text), text.string() + ": expected an image that GDAL can read, got another kind of "
-                                                        "file (GeoTIFF, PNG, JPEG, BMP, SGI and TGA are read)");
+    CHECK_THROWS_WITH(read_image(text), text.string() +
+                                            ": expected an image that GDAL can read, got another kind of "
+                                            "file (GeoTIFF, PNG, JPEG, BMP, SGI, TGA, GIF and WebP are read)");
     const auto missing = scratch_file("missing.png");
     CHECK_THROWS_WITH(read_image(missing), missing.string() + ": expected a file, found none");
     const auto cut = scratch_file("cut.png");

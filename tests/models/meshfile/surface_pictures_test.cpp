@@ -101,7 +101,7 @@ TEST_CASE("what is mostly transparent is left out or glass, unless nothing else 
 
 TEST_CASE("a FlightGear model says in which folder its pictures lie") {
     const auto mesh = file_with("painted.ac", ac3d_square("0x0"));
-    const std::filesystem::path folder = mesh.parent_path() / "Texture-RAF";
+    const std::filesystem::path folder = mesh.parent_path() / "Skins" / "Texture-RAF";
     std::filesystem::create_directories(folder);
     std::filesystem::remove(mesh.parent_path() / "two.bmp");
     write_file(folder / "two.bmp", red_and_blue());
@@ -110,7 +110,7 @@ TEST_CASE("a FlightGear model says in which folder its pictures lie") {
             {.pictures = true});
     };
     CHECK(model("").colours.empty());
-    for (const std::string name : {"Texture-RAF/", "/Texture-RAF"}) {
+    for (const std::string name : {"Skins/Texture-RAF/", "/Skins/Texture-RAF"}) {
         const TriangleMesh painted = model("<texture-path>" + name + "</texture-path>");
         CHECK(painted.notes.empty());
         REQUIRE(painted.colours.size() == 4);

@@ -2,11 +2,14 @@
 #include "models/polygons/obj_writer.h"
 #include "models/polygons/polygon_model.h"
 #include "models/polygons/polygon_outlines.h"
+#include "sim/base/output_file.h"
+#include "tests/scratch.h"
 
 #include <catch2/catch.hpp>
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 
@@ -184,4 +187,37 @@ TEST_CASE("a model with pieces is written as what it is and read back whole") {
     CHECK(again.corner_vertices == model.corner_vertices);
     CHECK(again.parents.empty());
     CHECK(again.notes.empty());
+}
+
+TEST_CASE("corners of cut polygons keep their texture coordinates, others have none") {
+    const auto folder = octant::tests::empty_folder("painted");
+    octant::write_file(
+        folder / "painted.mtl", "newmtl skin\nKd 1 1 1\nmap_Kd -clamp on my skin.png\nnewmtl plain\nKd 1 0 0\n");
+    // A dented polygon whose texture coordinates are a tenth of its places, and a triangle without a picture.
+    octant::write_file(folder / "painted.obj",
+        "mtllib painted.mtl\nv 0 0 0\nv 4 0 0\nv 4 4 0\nv 2 1 0\nv 0 4 0\nv 9 9 9\n"
+        "vt 0 0\nvt .4 0\nvt .4 .4\nvt .2 .1\nvt 0 .4\n"
+        "usemtl skin\nf 1/1 2/2 3/3 4/4 5/5\nusemtl plain\nf 1/1 2/2 6/1\n");
+    const PolygonModel model = read_obj(folder / "painted.obj", {}, true);
+    REQUIRE(model.polygons.size() > 2);
+    REQUIRE(model.corner_texture_coordinates.size() == model.corner_vertices.size());
+    const FileAxes axes;
+    for (std::size_t i = 0; i < model.polygons.size(); ++i) {
+        const bool is_plain = model.materials[model.polygons[i].material].name == "plain";
+        std::size_t corner = model.polygons[i].first_corner;
+        for (const std::uint32_t vertex : model.corners(i)) {
+            const glm::vec2 place = model.corner_texture_coordinates[corner++];
+            const glm::dvec3 at_m = axes.file_from_body(model.vertices_m[vertex]);
+            CHECK(std::isnan(place.x) == is_plain);
+            if (!is_plain) {
+                CHECK(place.x == Approx(0.1 * at_m.x).margin(1e-6));
+                CHECK(place.y == Approx(0.1 * at_m.y).margin(1e-6));
+            }
+        }
+    }
+    const auto skin = std::ranges::find(model.materials, "skin", &Material::name);
+    REQUIRE(skin != model.materials.end());
+    CHECK(skin->picture == "my skin.png");
+    CHECK(skin->texture.wrap_u == TextureWrap::Clamp);
+    CHECK(read_obj(folder / "painted.obj").corner_texture_coordinates.empty());
 }

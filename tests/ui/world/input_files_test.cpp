@@ -81,6 +81,25 @@ TEST_CASE("pictures, buffers and sub-models of an aircraft are inputs of the run
     CHECK(files_to_copy(aircraft_shown_by({folder / "m/a.gltf"}), {}).size() == 2);
 }
 
+TEST_CASE("pictures elsewhere, in another case or behind backslashes are kept beside their model, where readers look") {
+    const fs::path folder = tests::empty_folder("pictures-elsewhere");
+    fs::create_directories(folder / "models");
+    fs::create_directories(folder / "textures");
+    write_file(folder / "textures/Skin.PNG", "skin");
+    write_file(folder / "textures/fin.jpg", "fin");
+    write_file(folder / "models/jet.ac", "AC3Db\ntexture \"..\\textures\\skin.png\"\n");
+    write_file(folder / "models/jet.dae", "<library_images><init_from>C:/work/fin.jpg</init_from></library_images>");
+    const auto names_of = [&](const char* model) {
+        std::vector<std::string> names;
+        for (const auto& [name, bytes] : files_to_copy(aircraft_shown_by({folder / "models" / model}), {})) {
+            names.push_back(name);
+        }
+        return names;
+    };
+    CHECK(names_of("jet.ac") == std::vector<std::string>{"inputs/jet.ac", "inputs/Skin.PNG"});
+    CHECK(names_of("jet.dae") == std::vector<std::string>{"inputs/jet.dae", "inputs/fin.jpg"});
+}
+
 TEST_CASE("a file that names the ground's coordinate system is kept with the run") {
     const fs::path folder = empty_folder("inputs-system");
     write_file(folder / "utm.prj", "PROJCS");

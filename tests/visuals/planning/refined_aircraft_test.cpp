@@ -230,7 +230,7 @@ TEST_CASE("triangles of a creased mesh have the normals of their own faces, and 
     const auto shared = std::make_shared<const refine::ProgressiveMesh>(sequence);
     const auto creases = refine::mesh_creases(*shared, refine::creased_normals(mesh));
     REQUIRE(creases != nullptr);
-    planning::RefinedAircraft aircraft(shared, refining(), {}, creases);
+    planning::RefinedAircraft aircraft(shared, refining(), {}, nullptr, creases);
     aircraft.update(below(5.0), looking_down(), true);
     const scene::RefinedDraw draw = aircraft.draw();
     REQUIRE(draw.indices.size() == 3 * rim);

@@ -158,3 +158,25 @@ TEST_CASE("a model that was not cut keeps its normals") {
     const auto made = piece_normals(torus, normals, torus);
     for (std::size_t corner = 0; corner < made.size(); ++corner) { CHECK(near(made[corner], normals[corner])); }
 }
+
+TEST_CASE("pieces of a polygon lie on its picture where the polygon does, and one without a picture has no place") {
+    models::polygons::PolygonModel whole = folded(1.0);
+    const float none = std::nanf("");
+    whole.corner_texture_coordinates = {
+        {0.0F, 0.0F}, {2.0F, 0.0F}, {2.0F, 3.0F}, {0.0F, 3.0F}, {none, none}, {none, none}, {none, none}, {none, none}};
+    models::polygons::PolygonModel pieces = whole;
+    pieces.corner_texture_coordinates.clear();
+    pieces.vertices_m.insert(pieces.vertices_m.end(), {{0.25, 0, 0}, {0.75, 1, 0}, {0.5, 0.5, 0}});
+    pieces.corner_vertices = {0, 8, 10, 9, 3, 8, 1, 2, 9, 10, 4, 5, 6, 7};
+    pieces.polygons = {{.first_corner = 0, .corner_count = 5}, {.first_corner = 5, .corner_count = 5},
+        {.first_corner = 10, .corner_count = 4}};
+    pieces.parents = {0, 0, 1};
+    const auto made = piece_texture_coordinates(whole, pieces);
+    REQUIRE(made.size() == pieces.corner_vertices.size());
+    for (std::size_t corner = 0; corner < 10; ++corner) {
+        const glm::dvec3& at = pieces.vertices_m[pieces.corner_vertices[corner]];
+        CHECK(made[corner].x == Approx(2.0 * at.x).margin(1e-6));
+        CHECK(made[corner].y == Approx(3.0 * at.y).margin(1e-6));
+    }
+    CHECK(std::isnan(made[10].x));
+}

@@ -13,6 +13,12 @@ layout(location = 8) in vec4 face_colour; // of the polygon that begins here
 layout(location = 9) in vec4 smooth_tint; // of the aircraft's smooth polygons; a = 0: none
 layout(location = 10) in vec4 flat_tint; // the same of its flat ones
 
+#ifdef TEXTURED
+layout(location = 11) in vec2 place_on_texture;
+layout(location = 12) in uint texture_number; // 0: none
+layout(location = 13) in uint first_texture; // of the aircraft's model
+#endif
+
 #include "haze.glsl"
 
 layout(std430, binding = 0) readonly buffer Parts {
@@ -24,13 +30,19 @@ layout(std430, binding = 1) readonly buffer Smooth {
 };
 
 flat out vec4 flat_colour; // a = 1: the smooth one counts; a < 0: the polygon's back is seen
+#if defined(PHONG) || defined(TEXTURED)
+out vec4 haze_part; // colour times share, and what is left of the surface's own
+#endif
 #ifdef PHONG
 out vec3 surface_colour;
 out vec3 surface_normal; // world axes
 out vec3 to_eye; // world axes, metres
-out vec4 haze_part; // colour times share, and what is left of the surface's own
 #else
 out vec3 smooth_colour;
+#endif
+#ifdef TEXTURED
+out vec2 on_texture;
+flat out uint shown_texture; // 0: none
 #endif
 
 vec3 lit(vec3 colour, vec3 outwards) {
@@ -48,13 +60,24 @@ void main() {
     // Cosine between the line of sight and the normal above which a back is seen: a hundred times
     // what rounding leaves open.
     bool turned_away = dot(outwards, place.xyz) > 1e-5 * length(place.xyz);
-    flat_colour = vec4(mix(lit(mix(face_colour.rgb, flat_tint.rgb, flat_tint.a), outwards), air.rgb, air.a), turned_away ? -1.0 : float(bit));
+    vec3 flat_light = lit(mix(face_colour.rgb, flat_tint.rgb, flat_tint.a), outwards);
+#if defined(PHONG) || defined(TEXTURED)
+    haze_part = vec4(air.rgb * air.a, 1.0 - air.a);
+#endif
+#ifdef TEXTURED // the air comes after the picture
+    flat_colour = vec4(flat_light, turned_away ? -1.0 : float(bit));
+    on_texture = place_on_texture;
+    shown_texture = texture_number == 0u || flat_tint.a > 0.0 ? 0u : first_texture + texture_number;
+#else
+    flat_colour = vec4(mix(flat_light, air.rgb, air.a), turned_away ? -1.0 : float(bit));
+#endif
     vec3 own = mix(own_colour.rgb, smooth_tint.rgb, smooth_tint.a);
 #ifdef PHONG
     surface_colour = own;
     surface_normal = turn * normal;
     to_eye = -place.xyz;
-    haze_part = vec4(air.rgb * air.a, 1.0 - air.a);
+#elif defined(TEXTURED)
+    smooth_colour = lit(own, turn * normal);
 #else
     smooth_colour = mix(lit(own, turn * normal), air.rgb, air.a);
 #endif
