@@ -530,7 +530,7 @@ FlightGearAnimations flightgear_animations(const XmlElement& root, const Resting
             expand(turn->objects, groups);
             add_turn(std::move(*turn), animated.turns);
         } else if (const std::string picture(child.text_of("texture"));
-                   kind == "material" && !picture.empty() && holds_at_rest(child)) {
+                   kind == "material" && !picture.empty() && holds_at_rest(child, properties)) {
             Names objects = objects_of(child);
             if (objects.empty()) { objects.insert(""); }
             expand(objects, groups);

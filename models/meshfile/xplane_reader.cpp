@@ -228,7 +228,7 @@ private:
             const auto at = static_cast<std::size_t>(i);
             // Clockwise seen from the front.
             const std::array triangle{corner(indices_[at]), corner(indices_[at + 2]), corner(indices_[at + 1])};
-            mesh_.add_polygon(triangle, material_, picture_);
+            mesh_.add_polygon(triangle, material_, {.picture = picture_});
         }
     }
 
