@@ -10,6 +10,7 @@
 #include <cstring>
 #include <fmt/format.h>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace octant::models::meshfile {

@@ -43,8 +43,8 @@ private:
     std::shared_ptr<const World> world_;
 };
 
-/// Loads a world without Python's lock. `shared`: with which it shares what both have in common; null = none. Returns it
-/// with the notes for the user.
+/// Loads a world without Python's lock. `shared`: with which it shares what both have in common; null = none. Returns
+/// it with the notes for the user.
 std::pair<std::unique_ptr<OpenWorld>, std::vector<std::string>> load(const std::string& terrain,
     const std::vector<std::string>& aircraft, const std::vector<std::pair<std::string, std::string>>& settings,
     const OpenWorld* shared) {

@@ -76,7 +76,8 @@ void read(const std::string& library, const models::meshfile::ReadOptions& optio
 
 int main(int count, char** words) {
     if (count != 6) {
-        std::fputs("octant-read-mesh assimp|osg|draco textures|pictures|- backs|- IN OUT.obj: started by octant\n", stderr);
+        std::fputs(
+            "octant-read-mesh assimp|osg|draco textures|pictures|- backs|- IN OUT.obj: started by octant\n", stderr);
         return exit_invalid_input;
     }
     limit();

@@ -264,8 +264,8 @@ void take_textures(meshfile::LevelChain& chain, meshfile::TextureStore& textures
 }
 
 /// Levels with an error above that of the polygons are left out.
-MeshAircraft from_chain(const fs::path& file, const AircraftFrameSettings& frame,
-    const std::shared_ptr<meshfile::TextureStore>& textures) {
+MeshAircraft from_chain(
+    const fs::path& file, const AircraftFrameSettings& frame, const std::shared_ptr<meshfile::TextureStore>& textures) {
     meshfile::LevelChain chain = meshfile::read_chain(file);
     const AircraftAxes found = aircraft_axes(frame.axes, file, chain.levels.front().mesh);
     const models::polygons::FileAxes& axes = found.axes;

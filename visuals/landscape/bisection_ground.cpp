@@ -117,8 +117,8 @@ private:
 /// its ends to its own. Near the eye the footprint is smaller than the distance of samples, and places between them
 /// have colours, too. Water takes part of what it shows from the sky and the sun, by the eye's place.
 ///
-/// Colours are worked out when first asked for, so that the size of the ground does not matter, and the last quarter of a
-/// million are remembered, for all views together.
+/// Colours are worked out when first asked for, so that the size of the ground does not matter, and the last quarter of
+/// a million are remembered, for all views together.
 class VertexColours {
 public:
     /// The ground must outlive the colours.

@@ -78,10 +78,10 @@ Fleet::Fleet(const Scene& scene, const scene::Settings& settings) : scene_(scene
     if (scene.cockpit && settings.view.kind == scene::View::Cockpit) { add(*scene.cockpit); }
     for (const PlacedAircraft& aircraft : placed_) {
         const auto& progressive = aircraft.near_model->progressive;
-        refined_.push_back(progressive ? std::make_unique<RefinedAircraft>(progressive, refiner_options(settings),
-                                             settings.shading, aircraft.near_model->progressive_textures,
-                                             aircraft.near_model->creases)
-                                       : nullptr);
+        refined_.push_back(
+            progressive ? std::make_unique<RefinedAircraft>(progressive, refiner_options(settings), settings.shading,
+                              aircraft.near_model->progressive_textures, aircraft.near_model->creases)
+                        : nullptr);
     }
     last_.resize(placed_.size());
     far_parts_.resize(placed_.size());

@@ -5,6 +5,8 @@
 #include <catch2/catch.hpp>
 #include <glm/geometric.hpp>
 
+#include <cmath>
+
 using namespace octant;
 using namespace octant::visuals::scene;
 
