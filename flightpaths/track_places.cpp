@@ -235,22 +235,32 @@ public:
         constexpr double left_out_sd = 6.0;
         constexpr double left_out_m = 2.0;
         constexpr double freedom = 5.0;
-        rejected_ = 0;
+        std::vector<double> squares(variances_.size(), 0.0); // of distances, in variances
+        std::vector<std::size_t> far;
+        std::size_t measured = 0;
         for (std::size_t i = 0; i < variances_.size(); ++i) {
             if (!std::isfinite(variances_[i])) { continue; }
+            ++measured;
             double square = 0.0;
             for (std::size_t axis = 0; axis < axes.size(); ++axis) {
                 square = std::max(square, squared((*axes[axis])[i].position_m - (*motion[axis])[i].position_m));
             }
-            const bool far = square > squared(left_out_m);
-            square /= variances_[i];
-            const bool left_out = far && square > squared(left_out_sd);
-            rejected_ += left_out ? 1 : 0;
+            constexpr double most = 1e12;
+            squares[i] = std::min(square / variances_[i], most);
+            if (square > squared(left_out_m) && squares[i] > squared(left_out_sd)) { far.push_back(i); }
+        }
+        // Where most contradict the motion, the motion is wrong, not they.
+        if (2 * far.size() > measured) { far.clear(); }
+        for (std::size_t i = 0; i < variances_.size(); ++i) {
+            if (!std::isfinite(variances_[i])) { continue; }
             for (auto* axis : axes) {
-                (*axis)[i].position_variance =
-                    left_out ? infinite : variances_[i] * (freedom + square) / (freedom + 1.0);
+                (*axis)[i].position_variance = variances_[i] * (freedom + squares[i]) / (freedom + 1.0);
             }
         }
+        for (const std::size_t i : far) {
+            for (auto* axis : axes) { (*axis)[i].position_variance = infinite; }
+        }
+        rejected_ = static_cast<long>(far.size());
     }
 
     long rejected() const { return rejected_; }

@@ -290,13 +290,17 @@ def same_bytes():
 
 
 def killed():
-    """Kills a program at random times, until it comes to the end by itself."""
+    """Kills a program after some samples or during one, until it comes to the end by itself."""
     whole = tree(make("npz"))
     rng = random.Random(7)
     kills = 0
     for _ in range(200):
+        begun = len(list((FOLDER / "killed/samples").glob("*.json")))
         child = subprocess.Popen(arguments("killed"), stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
-        time.sleep(rng.uniform(0.05, 0.9))
+        more = rng.randint(0, 2)
+        while child.poll() is None and len(list((FOLDER / "killed/samples").glob("*.json"))) < begun + more:
+            time.sleep(0.002)
+        time.sleep(rng.uniform(0.0, 0.03 if more else 0.3))
         child.send_signal(signal.SIGKILL)
         errors = child.communicate()[1]
         if child.returncode == 0:

@@ -146,15 +146,16 @@ TEST_CASE("a file is no known aircraft because of its name, and says whose path 
         [](const std::string& note) { return note.find("flies the straight path of f15") != std::string::npos; }));
 }
 
-TEST_CASE("an OBJ file with pictures or glass flies as a mesh, which shows them") {
+TEST_CASE("an OBJ file with glass flies as a mesh, and one with pictures where they become colours of vertices") {
     const std::filesystem::path folder = tests::scratch_folder();
-    const auto has_mesh = [&](std::string_view material) {
+    const auto has_mesh = [&](std::string_view material, bool textures = true) {
         write_file(folder / "dart.mtl", "newmtl skin\n" + std::string(material) + "\n");
         const std::filesystem::path file = folder / "dart.obj";
         write_file(file, "mtllib dart.mtl\nusemtl skin\nv 0 0 -4\nv 2 0 4\nv -2 0 4\nv 0 1 4\n"
                          "vt 0 0\nf 1/1 2/1 3/1\nf 1/1 4/1 2/1\nf 1/1 3/1 4/1\nf 2/1 4/1 3/1\n");
         RunSettings settings = over("none");
         settings.path.aircraft = {file.string()};
+        settings.surface.textures = textures;
         return load_world(settings).scene.model_of(0).progressive != nullptr;
     };
     write_file(folder / "skin.png", "of no use, which is noted");
@@ -162,7 +163,8 @@ TEST_CASE("an OBJ file with pictures or glass flies as a mesh, which shows them"
     CHECK_FALSE(has_mesh("map_Kd gone.png"));
     CHECK_FALSE(has_mesh("d 1"));
     CHECK(has_mesh("d 0.4"));
-    CHECK(has_mesh("map_Kd skin.png"));
+    CHECK_FALSE(has_mesh("map_Kd skin.png"));
+    CHECK(has_mesh("map_Kd skin.png", false));
 }
 
 TEST_CASE("a path file of an unknown aircraft is refused with its line") {
