@@ -236,33 +236,17 @@ public:
         return found;
     }
 
-    /// Triples of the list `name` of the node in a field of another node; none without either.
-    std::vector<glm::dvec3> triples(const VrmlNode& set, std::string_view field_name, std::string_view name) const {
-        std::vector<glm::dvec3> found;
+    /// Points of the list `name` of the node in a field of another node; none without either.
+    template <class Point>
+    std::vector<Point> points(const VrmlNode& set, std::string_view field_name, std::string_view name) const {
+        std::vector<Point> found;
         const VrmlNode* node = only_node(set, field_name);
         const VrmlField* field = node == nullptr ? nullptr : node->field(name);
         if (field == nullptr) { return found; }
         TextScanner words(path_, field->text, vrml_rules, field->line);
         while (!words.peek().empty()) {
-            const double x = words.number("a number");
-            const double y = words.number("a number");
-            const double z = words.number("a number");
-            found.emplace_back(x, y, z);
-        }
-        return found;
-    }
-
-    /// Pairs of the list `name` of the node in a field of another node; none without either.
-    std::vector<glm::dvec2> pairs(const VrmlNode& set, std::string_view field_name, std::string_view name) const {
-        std::vector<glm::dvec2> found;
-        const VrmlNode* node = only_node(set, field_name);
-        const VrmlField* field = node == nullptr ? nullptr : node->field(name);
-        if (field == nullptr) { return found; }
-        TextScanner words(path_, field->text, vrml_rules, field->line);
-        while (!words.peek().empty()) {
-            const double x = words.number("a number");
-            const double y = words.number("a number");
-            found.emplace_back(x, y);
+            Point& point = found.emplace_back();
+            for (int k = 0; k < Point::length(); ++k) { point[k] = words.number("a number"); }
         }
         return found;
     }
@@ -426,20 +410,20 @@ private:
         count_numbers(faces.corners.size(), set->line);
         faces.colour_indices = fields_.indices(*set, "colorIndex");
         faces.normal_indices = fields_.indices(*set, "normalIndex");
-        faces.colours = fields_.triples(*set, "color", "color");
+        faces.colours = fields_.points<glm::dvec3>(*set, "color", "color");
         faces.colour_per_vertex = fields_.flag(*set, "colorPerVertex");
         faces.normal_per_vertex = fields_.flag(*set, "normalPerVertex");
         faces.counter_clockwise = fields_.flag(*set, "ccw") != placement.mirrors();
         faces.line = set->line;
         std::ranges::for_each(faces.colours, [&](const glm::dvec3& colour) { check_colour(colour, set->line); });
         faces.first_normal = static_cast<std::uint32_t>(mesh_.normal_count());
-        for (const glm::dvec3& normal : fields_.triples(*set, "normal", "vector")) {
+        for (const glm::dvec3& normal : fields_.points<glm::dvec3>(*set, "normal", "vector")) {
             mesh_.add_normal(placement.normal(normal));
             ++faces.normals;
         }
         faces.texture_indices = fields_.indices(*set, "texCoordIndex");
         faces.first_texture = static_cast<std::uint32_t>(mesh_.texture_coordinates_count());
-        for (const glm::dvec2& place : fields_.pairs(*set, "texCoord", "point")) {
+        for (const glm::dvec2& place : fields_.points<glm::dvec2>(*set, "texCoord", "point")) {
             mesh_.add_texture_coordinates(glm::vec2(place));
             ++faces.textures;
         }
@@ -465,7 +449,7 @@ private:
             return;
         }
         first_point_ = mesh_.vertex_count();
-        for (const glm::dvec3& own_m : fields_.triples(set, "coord", "point")) {
+        for (const glm::dvec3& own_m : fields_.points<glm::dvec3>(set, "coord", "point")) {
             const auto place_m = placement.point_m(own_m);
             if (!place_m) { refuse(coord.line, "points within bounds", "one that its node moves out of them"); }
             mesh_.add_vertex(*place_m);
