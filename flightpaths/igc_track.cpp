@@ -79,8 +79,9 @@ std::optional<double> day_of(std::string_view record) {
     }
     const std::size_t at = record.find_first_of("0123456789");
     if (at == record.npos || record.size() < at + 6) { return std::nullopt; }
-    return log_date(
-        fmt::format("20{}-{}-{}", record.substr(at + 4, 2), record.substr(at + 2, 2), record.substr(at, 2)));
+    const auto day =
+        log_date(fmt::format("20{}-{}-{}", record.substr(at + 4, 2), record.substr(at + 2, 2), record.substr(at, 2)));
+    return day ? std::optional(day->seconds) : std::nullopt;
 }
 
 } // namespace

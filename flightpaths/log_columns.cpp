@@ -8,6 +8,7 @@
 #include <chrono>
 #include <cmath>
 #include <iterator>
+#include <tuple>
 #include <utility>
 
 namespace octant::flightpaths {
@@ -32,8 +33,18 @@ std::optional<int> taken_number(std::string_view& text) {
     return static_cast<int>(*number);
 }
 
-/// Takes "hh:mm:ss" and its fraction off the front of a text; returns seconds. Some loggers write the fraction after
-/// the zone letter Z.
+/// Takes "AM" or "PM" off the front of a text and returns the seconds since midnight of a clock of twelve hours.
+double taken_half_of_day(std::string_view& text, int hour, double clock_s) {
+    constexpr double half_day_s = 0.5 * day_s;
+    const std::string half = in_small_letters(text.substr(0, std::string_view(" AM").size()));
+    const std::string_view letters = std::string_view(half).substr(half.starts_with(' ') ? 1 : 0).substr(0, 2);
+    if ((letters != "am" && letters != "pm") || hour < 1 || hour > 12) { return clock_s; }
+    text.remove_prefix(half.starts_with(' ') ? 3 : 2);
+    return clock_s + (letters == "pm" ? half_day_s : 0.0) - (hour == 12 ? half_day_s : 0.0);
+}
+
+/// Takes "hh:mm:ss", its fraction and "AM" or "PM" off the front of a text; returns seconds. Some loggers write the
+/// fraction after the zone letter Z.
 std::optional<double> taken_clock(std::string_view& text) {
     std::array<int, 3> parts{};
     for (std::size_t i = 0; i < parts.size(); ++i) {
@@ -52,23 +63,37 @@ std::optional<double> taken_clock(std::string_view& text) {
         fraction = finite_number("0" + std::string(text.substr(0, length))).value_or(0.0);
         text.remove_prefix(length);
     }
-    return 3600.0 * parts[0] + 60.0 * parts[1] + parts[2] + fraction;
+    return taken_half_of_day(text, parts[0], 3600.0 * parts[0] + 60.0 * parts[1] + parts[2] + fraction);
 }
 
-/// Takes "yyyy-mm-dd" and one separator off the front of a text; returns the date in seconds since 1970.
-std::optional<double> taken_date(std::string_view& text) {
+/// Takes a date and one separator off the front of a text: "yyyy-mm-dd", "mm/dd/yyyy", "dd/mm/yyyy" or "dd.mm.yyyy".
+std::optional<LogTime> taken_date(std::string_view& text) {
+    constexpr int first_year = 1900;
+    constexpr int months = 12;
     std::array<int, 3> parts{};
+    char separator = 0;
     for (int& part : parts) {
         const auto number = taken_number(text);
         if (!number || text.empty()) { return std::nullopt; }
+        if (separator == 0) { separator = text.front(); }
         part = *number;
         text.remove_prefix(1);
     }
+    auto [year_number, month_number, day_number] = parts;
+    bool day_is_guessed = false;
+    if (year_number < first_year && (separator == '/' || separator == '.' || day_number >= first_year)) {
+        std::tie(month_number, day_number, year_number) = std::tuple(parts[0], parts[1], parts[2]);
+        if (separator == '.' || month_number > months) { std::swap(month_number, day_number); }
+        day_is_guessed = separator != '.' && parts[0] <= months && parts[1] <= months && parts[0] != parts[1];
+        if (year_number < 100) { year_number += 2000; }
+    }
     using namespace std::chrono;
     const year_month_day date{
-        year{parts[0]}, month{static_cast<unsigned>(parts[1])}, day{static_cast<unsigned>(parts[2])}};
-    if (!date.ok() || parts[0] < 1900) { return std::nullopt; }
-    return day_s * static_cast<double>(sys_days{date}.time_since_epoch().count());
+        year{year_number}, month{static_cast<unsigned>(month_number)}, day{static_cast<unsigned>(day_number)}};
+    if (!date.ok() || year_number < first_year) { return std::nullopt; }
+    return LogTime{.seconds = day_s * static_cast<double>(sys_days{date}.time_since_epoch().count()),
+        .is_date = true,
+        .day_is_guessed = day_is_guessed};
 }
 
 /// A text without the rest that was not taken.
@@ -104,7 +129,7 @@ std::optional<double> zone_offset_s(std::string_view text) {
     return text.front() == '-' ? -size_s : size_s;
 }
 
-std::optional<double> log_date(std::string_view text) {
+std::optional<LogTime> log_date(std::string_view text) {
     constexpr std::size_t compact = 8;
     std::string whole(text);
     if (whole.size() == compact && std::ranges::all_of(whole, is_digit)) {
@@ -112,8 +137,8 @@ std::optional<double> log_date(std::string_view text) {
     }
     whole += 'T';
     std::string_view rest = whole;
-    const auto date_s = taken_date(rest);
-    return rest.empty() ? date_s : std::nullopt;
+    const auto date = taken_date(rest);
+    return rest.empty() ? date : std::nullopt;
 }
 
 std::optional<LogTime> log_time(std::string_view text) {
@@ -124,14 +149,14 @@ std::optional<LogTime> log_time(std::string_view text) {
             .seconds = *clock_s, .is_time_of_day = true, .is_leap_second = is_second_60(*clock_s, without(text, rest))};
     }
     rest = text;
-    const auto date_s = taken_date(rest);
-    if (!date_s) { return std::nullopt; }
+    auto moment = taken_date(rest);
+    if (!moment) { return std::nullopt; }
     const auto clock_s = taken_clock(rest);
     const auto zone_s = zone_offset_s(rest);
     if (!clock_s || !zone_s) { return std::nullopt; }
-    return LogTime{.seconds = *date_s + *clock_s - *zone_s,
-        .is_date = true,
-        .is_leap_second = is_second_60(*clock_s, without(text, rest))};
+    moment->seconds += *clock_s - *zone_s;
+    moment->is_leap_second = is_second_60(*clock_s, without(text, rest));
+    return moment;
 }
 
 namespace {

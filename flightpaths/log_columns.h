@@ -28,17 +28,18 @@ struct LogTime {
     bool is_date = false;
     /// True for the second 60 of a minute, which has the number of the next second.
     bool is_leap_second = false;
+    /// True for a date whose month and day could be exchanged (3/5/2024): the first number is taken as the month.
+    bool day_is_guessed = false;
 };
 
-/// Reads a number (seconds), a time of day (07:41:03.5) or a date with a time of day (2024-01-02T07:41:03Z, 2024/01/02
-/// 07:41:03+01:00). Any single character may separate the parts of a date. Dates become seconds since 1970, UTC; a
-/// date without a time zone is taken as UTC. The time zone of a time of day is ignored. Returns nothing for any other
-/// text.
+/// Reads a number (seconds), a time of day (07:41:03.5, 7:41:03 PM) or a date with a time of day (2024-01-02T07:41:03Z,
+/// 2024/01/02 07:41:03+01:00). Any single character may separate the parts of a date. A date may end with its year
+/// (1/31/2024, 31/1/2024, 31.1.2024). Dates become seconds since 1970, UTC; a date without a time zone is taken as UTC.
+/// The time zone of a time of day is ignored. Returns nothing for any other text.
 std::optional<LogTime> log_time(std::string_view text);
 
-/// Reads a date without a time (2024-01-02, 2024/1/2, 20240102): seconds since 1970. Returns nothing for any other
-/// text.
-std::optional<double> log_date(std::string_view text);
+/// Reads a date without a time (2024-01-02, 1/2/2024, 20240102). Returns nothing for any other text.
+std::optional<LogTime> log_date(std::string_view text);
 
 /// Reads an offset from UTC (-04:00, +0530, Z): seconds. Returns nothing for any other text.
 std::optional<double> zone_offset_s(std::string_view text);

@@ -535,6 +535,11 @@ private:
         const bool is_unix = !read->is_time_of_day && !read->is_date && read->seconds >= since_2001_s;
         if (!first_time_s_) {
             first_time_s_ = read->seconds;
+            if (read->day_is_guessed) {
+                const std::string_view date = field(LogQuantity::Date);
+                fixes_.add_note(fmt::format("dates are taken as month/day/year: line {} has {}", line_,
+                    printable(std::string(date.empty() ? text : date))));
+            }
             fixes_.time_scale = read->is_date || is_unix ? TimeScale::Utc
                                 : read->is_time_of_day   ? TimeScale::TimeOfDay
                                                          : TimeScale::Own;
@@ -545,12 +550,11 @@ private:
 
     /// Local dates and clocks with their offset from UTC.
     LogTime with_date(LogTime time) const {
-        const auto date_s = log_date(field(LogQuantity::Date));
-        if (!date_s) { return time; }
-        time.seconds += *date_s - zone_offset_s(field(LogQuantity::UtcOffset)).value_or(0.0);
-        time.is_time_of_day = false;
-        time.is_date = true;
-        return time;
+        auto date = log_date(field(LogQuantity::Date));
+        if (!date) { return time; }
+        date->seconds += time.seconds - zone_offset_s(field(LogQuantity::UtcOffset)).value_or(0.0);
+        date->is_leap_second = time.is_leap_second;
+        return *date;
     }
 
     /// A second column of times says when times of their own begin.

@@ -119,7 +119,7 @@ private:
         if (text.empty()) { return std::nullopt; }
         const auto read = log_time(text);
         if (read && read->is_date) { return read; }
-        if (const auto day_s = log_date(text)) { return LogTime{.seconds = *day_s, .is_date = true}; }
+        if (const auto day = log_date(text)) { return day; }
         refuse(node, "a time such as 2024-01-02T07:41:03Z", text);
     }
 

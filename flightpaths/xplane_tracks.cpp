@@ -30,22 +30,6 @@ std::string_view bare(std::string_view line) {
     return split_fields(line, '\n').front();
 }
 
-/// mm/dd/yyyy or mm/dd/yy as X-Plane writes it; with a first number above 12, dd/mm/yyyy.
-std::optional<double> american_date_s(std::string_view text) {
-    const auto parts = split_fields(text, '/');
-    if (parts.size() < 3) { return std::nullopt; }
-    std::array<long, 3> numbers{};
-    for (std::size_t i = 0; i < numbers.size(); ++i) {
-        const auto number = whole_number(parts[i].substr(0, parts[i].find(' ')));
-        if (!number) { return std::nullopt; }
-        numbers.at(i) = *number;
-    }
-    auto [month, day, year] = numbers;
-    if (month > 12) { std::swap(month, day); }
-    if (year < 100) { year += 2000; }
-    return log_date(fmt::format("{}-{}-{}", year, month, day));
-}
-
 /// The quantities of a row of a flight data recorder file and where they stand.
 struct FdrColumns {
     std::size_t first;
@@ -96,7 +80,8 @@ private:
         } else if (word == "TAIL") {
             tail_ = value;
         } else if (word == "DATE") {
-            date_s_ = american_date_s(value);
+            const auto date = log_date(value.substr(0, value.find(' '))); // month/day/year
+            date_s_ = date ? std::optional(date->seconds) : std::nullopt;
         } else if (word == "TIME") {
             const auto clock = log_time(value);
             clock_s_ = clock ? std::optional(clock->seconds) : std::nullopt;

@@ -7,6 +7,7 @@
 #include <catch2/catch.hpp>
 
 #include <string>
+#include <vector>
 
 using namespace octant;
 using namespace octant::flightpaths;
@@ -46,8 +47,18 @@ TEST_CASE("moments are read as numbers, clocks and dates, and nothing else is") 
     CHECK_FALSE(log_time("1970-01-02T00:00:01Z")->is_time_of_day);
     CHECK(log_time("2024-01-02 07:41:03Z.515")->seconds == 1704181263.515);
     CHECK(log_time("2024/01/02 07:41:03+01:00")->seconds == 1704181263.0 - 3600.0);
+    CHECK(log_time("07:41:03 PM")->seconds == 19 * 3600 + 41 * 60 + 3);
+    CHECK(log_time("12:00:00am")->seconds == 0.0);
+    CHECK(log_time("1/2/2024 12:41:03.5 PM")->seconds == 1704181263.5 + 5 * 3600);
+    CHECK(log_time("1/2/2024 07:41:03")->day_is_guessed);
+    CHECK(log_time("02.01.2024 07:41:03")->seconds == 1704181263.0);
+    CHECK_FALSE(log_time("02.01.2024 07:41:03")->day_is_guessed);
+    CHECK(log_date("31/1/2024")->seconds == log_date("2024-01-31")->seconds);
+    CHECK(log_date("1/31/24")->seconds == log_date("20240131")->seconds);
+    CHECK_FALSE(log_date("1/31/24")->day_is_guessed);
     for (const char* wrong : {"", "noon", "7:41", "25:00:00", "07:61:00", "2024-13-02T07:41:03", "2024-02-30 07:41:03",
-             "2024-01-02", "07:41:03 PM", "1:2:3:4", "99999-01-01T00:00:00", "2024-01-02T", "::"}) {
+             "2024-01-02", "13:41:03 PM", "0:41:03 AM", "07:41:03 XM", "13/13/2024 07:41:03", "31-02-24 07:41:03",
+             "1:2:3:4", "99999-01-01T00:00:00", "2024-01-02T", "::"}) {
         INFO(wrong);
         CHECK_FALSE(log_time(wrong));
     }
@@ -62,6 +73,16 @@ TEST_CASE("a log of Flightradar24 has its place in one field and its heights in 
     REQUIRE(track.notes.size() == 1);
     CHECK_THAT(track.notes[0], Contains("heading, pitch and roll are inferred from the motion"));
     CHECK(track.trajectory.samples()[1].velocity_mps.y == Approx(thousandth_north_m / 2).margin(0.1));
+}
+
+TEST_CASE("a log whose dates end with the year has a moment, and is told that its day is guessed") {
+    const RecordedTrack track = log_of("Date,Time,lat,lon,alt_m\n"
+                                       "03/05/2024,11:59:59 AM,47.0,8.0,300\n"
+                                       "03/05/2024,12:00:01 PM,47.001,8.0,300\n"
+                                       "03/05/2024,12:00:03 PM,47.002,8.0,300\n");
+    check_northward(track, 300.0, 2.0);
+    CHECK_THAT(track.notes,
+        Catch::Matchers::VectorContains(std::string("dates are taken as month/day/year: line 2 has 03/05/2024")));
 }
 
 TEST_CASE("a log of Garmin's has comments and units above its names, and clocks past midnight") {
