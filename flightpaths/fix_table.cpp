@@ -14,7 +14,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <iterator>
-#include <ranges>
 #include <tuple>
 #include <utility>
 
@@ -288,9 +287,9 @@ void FixTable::fill_ground_heights() {
                 ++filled;
             }
         };
-        for (Fix& fix : series.fixes) { fill(fix); }
+        std::for_each(series.fixes.begin(), series.fixes.end(), fill);
         last_m = not_measured;
-        for (Fix& fix : series.fixes | std::views::reverse) { fill(fix); }
+        std::for_each(series.fixes.rbegin(), series.fixes.rend(), fill);
     }
     if (filled > 0) {
         notes_.push_back(

@@ -53,7 +53,7 @@ double height_step_m(std::span<const double> heights_m) {
     }
     constexpr double largest_m = 40.0; // a hundred feet and a little more
     constexpr std::ptrdiff_t least_levels = 3;
-    const auto distinct = std::ranges::unique(levels).begin() - levels.begin();
+    const auto distinct = std::unique(levels.begin(), levels.end()) - levels.begin();
     if (!(step_m >= smallest_m && step_m <= largest_m) || distinct < least_levels) { return 0.0; }
     std::size_t repeats = 0;
     for (std::size_t i = 1; i < heights_m.size(); ++i) {

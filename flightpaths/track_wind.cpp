@@ -97,7 +97,6 @@ std::optional<FittedWind> wind_of_airspeeds(const Stretch& stretch) {
         glm::dmat2 normal(1.0 / (prior_mps * prior_mps));
         glm::dvec2 right(0.0);
         double count = 0.0;
-        double squares = 0.0;
         const auto add = [&](const glm::dvec2& row, double value, double weight) {
             normal += weight * glm::outerProduct(row, row);
             right += weight * row * value;
@@ -111,8 +110,6 @@ std::optional<FittedWind> wind_of_airspeeds(const Stretch& stretch) {
             if (std::isfinite(stretch.airspeeds_mps[i])) {
                 const glm::dvec2 along = air_mps / speed_mps;
                 add(along, glm::dot(ground_mps, along) - stretch.airspeeds_mps[i], speed_weight);
-                const double difference = speed_mps - stretch.airspeeds_mps[i];
-                squares += difference * difference;
                 count += 1.0;
             }
             if (std::isfinite(stretch.headings_rad[i])) {

@@ -386,7 +386,13 @@ def answer_pieces(changes, limit, within):
     if c.changed():
         place = place_pieces(c)
         return pieces + (["; "] + place if place else [])
-    return [{"unknown": "cannot tell: ", "no-change": "no change found: "}[c.outcome(limit, within)]] + pieces
+    if c.outcome(limit, within) == "unknown":
+        return ["cannot tell: between "] + end_pieces(c.low) + [" and "] + end_pieces(c.high)
+    return ["no change found: "] + pieces
+
+
+def end_pieces(share):
+    return [Number(abs(share), 1), " % " + ("faster" if share < 0 else "slower")]
 
 
 def change_pieces(c, outcome, with_interval):

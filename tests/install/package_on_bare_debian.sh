@@ -102,6 +102,21 @@ inside apt-get purge -y -qq python3-octant >>"$scratch/apt.log" 2>&1 || fail "th
 rm -r "$root/root/tests" "$root/root/ui"
 echo "python3-octant: scripts and notebooks run"
 
+# A data set over a map of one's own, and one of its samples again.
+inside octant terrain make --kind hills --size 257 --seed 7 --out /root/map.tif --quiet || fail "octant terrain make"
+cp "$(dirname "$0")/../../ui/examples/ring.toml" "$root/root/ring.toml"
+data_set=(octant dataset --path pop-up --path turn --aircraft f15-detailed --terrain map.tif --cameras ring.toml
+  --outputs rgb,depth,class,boxes --vary 'sun-elevation=5:60,clouds=0:0.7,visibility=3000:40000' --seed 3 --format coco --quiet)
+inside env -C /root "${data_set[@]}" --count 20 --out data/ || fail "octant dataset"
+inside env -C /root "${data_set[@]}" --count 24 --out data/ || fail "octant dataset goes on"
+inside env -C /root "${data_set[@]}" --count 24 --only 17 --out alone/ || fail "octant dataset --only"
+[[ -s $root/root/data/README.md && $(find "$root/root/data/samples" -name '*.json' | wc -l) -eq 24 ]] || fail "the data set is not whole"
+while read -r file; do
+  cmp "$root/root/data/$file" "$root/root/alone/$file" || fail "sample 17 made alone is another one"
+done < <(cd "$root/root/alone" && find . -type f -not -name dataset.json)
+rm -r "$root/root/data" "$root/root/alone" "$root/root/map.tif" "$root/root/ring.toml"
+echo "octant dataset: made, gone on with, sample 17 again"
+
 # What C++ programs need of the library.
 cp "$library_package" "$root/root/liboctant-dev.deb"
 inside apt-get install -y -qq --no-install-recommends /root/liboctant-dev.deb >>"$scratch/apt.log" 2>&1 ||

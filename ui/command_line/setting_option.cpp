@@ -43,12 +43,14 @@ Option option_of(const SettingInfo& info, std::vector<std::string>& values) {
 /// Settings that the program sets itself for others of its processes, or that only limit internal work.
 constexpr std::array<std::string_view, 3> internal_settings{"part", "order-seconds", "raster-threads"};
 
-/// Makes these options append their names to `given` when they are read.
+/// Makes these options append their names to `given` when they are read: "--no-X" where a flag is taken back.
 void record_given_options(std::span<Option> options, std::vector<std::string>& given) {
     for (Option& option : options) {
         const std::string name = option.name.substr(0, option.name.find(','));
-        option.read = [name, read = option.read, &given](const Words& words) {
-            given.push_back(name);
+        const bool is_flag = option.arity == Arity::None;
+        option.read = [name, is_flag, read = option.read, &given](const Words& words) {
+            const bool is_negated = is_flag && words.front() == "false";
+            given.push_back(is_negated ? "--no-" + name.substr(2) : name);
             read(words);
         };
     }

@@ -35,8 +35,9 @@ Option value_option(const settings::FieldInfo& info, Value& value, std::string_v
 
 /// Adds --settings FILE and then one option for every setting, each under the heading of its group. The file is read
 /// first, so that the others override it. The path is the argument without dashes. The names of given options are
-/// appended to `given` unless it is null. Settings whose names are in `without` get no option. Rarely used settings are
-/// keys of a family (add_family); old names of settings are read, with a note.
+/// appended to `given` unless it is null, as "--roads", "--no-roads", "path"; those of keys of a family, too. Settings
+/// whose names are in `without` get no option. Rarely used settings are keys of a family (add_family); old names of
+/// settings are read, with a note.
 void add_setting_options(std::vector<Option>& table, settings::RunSettings& settings,
     std::vector<std::string>* given = nullptr, std::span<const std::string_view> without = {});
 

@@ -11,6 +11,7 @@
 #include "ui/flight/session.h"
 #include "ui/report/packed_recording.h"
 #include "ui/report/video_pipe.h"
+#include "ui/settings/setting_rows.h"
 #include "ui/settings/settings_file.h"
 #include "ui/world/input_files.h"
 #include "ui/world/world.h"
@@ -44,12 +45,25 @@ struct FlyOptions : base::OutputOptions {
     bool if_new = false;
 };
 
+/// How the option of this name (FlyOptions::given) is typed: "--show no-shadows" for "--no-shadows".
+std::string typed_option(const std::string& name) {
+    for (const settings::SettingFamily& family : settings::setting_families()) {
+        for (const auto& [key, setting] : family.keys) {
+            if (name == fmt::format("--{}", setting)) { return fmt::format("{} {}", family.name, key); }
+            if (name == fmt::format("--no-{}", setting)) { return fmt::format("{} no-{}", family.name, key); }
+        }
+    }
+    return name;
+}
+
 /// Throws Error when the command line sets anything beside --replay that could change pictures.
 void check_no_settings_with_replay(const FlyOptions& options) {
-    constexpr std::array<std::string_view, 4> harmless{"--realtime", "--pictures", "--warm-up", "--order-cache"};
+    constexpr std::array<std::string_view, 5> harmless{
+        "--realtime", "--no-realtime", "--pictures", "--warm-up", "--order-cache"};
     for (const std::string& name : options.given) {
         if (std::ranges::find(harmless, name) == harmless.end()) {
-            throw Error(fmt::format("--replay: expected no option beside it that may change pictures, got {}", name));
+            throw Error(fmt::format(
+                "--replay: expected no option beside it that may change pictures, got {}", typed_option(name)));
         }
     }
 }

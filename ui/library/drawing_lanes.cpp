@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <atomic>
 #include <exception>
+#include <system_error>
 #include <thread>
 #include <utility>
 
@@ -151,7 +152,10 @@ bool DrawingLanes::for_each(std::size_t count, int threads, const std::function<
     const std::size_t helpers = std::min(count, static_cast<std::size_t>(std::max(threads, 1))) - 1;
     {
         std::vector<std::jthread> running; // joined at the end of the block
-        for (std::size_t i = 0; i < helpers; ++i) { running.emplace_back(draw, false); }
+        running.reserve(helpers);
+        try {
+            for (std::size_t i = 0; i < helpers; ++i) { running.emplace_back(draw, false); }
+        } catch (const std::system_error&) {} // The system gives no more threads: those that run draw everything.
         draw(true);
     }
     if (exception) { std::rethrow_exception(exception); }

@@ -126,8 +126,8 @@ public:
 
     const std::shared_ptr<SharedRenderers>& renderers() const { return renderers_; }
 
-    /// Calls work(index, lane) once for each index below `count` on at most `threads` threads, this one among them:
-    /// each takes the next index that is left, and draws with a lane of its own. `is_stopped`, if not empty, is asked
+    /// Calls work(index, lane) once for each index below `count` on at most `threads` threads, this one among them
+    /// (fewer where the system gives no more): each takes the next index that is left, and draws with a lane of its own. `is_stopped`, if not empty, is asked
     /// by this thread before each index of its own; true ends the loop early. Returns whether the loop came to its end.
     /// The first exception of `work` ends the loop and is thrown here. May be called by several threads at once.
     bool for_each(std::size_t count, int threads, const std::function<bool()>& is_stopped,

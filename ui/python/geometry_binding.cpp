@@ -38,24 +38,54 @@ Intrinsics intrinsics_of(const py::object& matrix) {
     return {k[0], k[4], k[2], k[5]};
 }
 
+/// An argument as a whole number. Throws ValueError.
+int whole_number(const py::handle& value, const char* name) {
+    const py::object number = py::reinterpret_steal<py::object>(PyNumber_Index(value.ptr()));
+    int overflow = 0;
+    const long long whole = number ? PyLong_AsLongLongAndOverflow(number.ptr(), &overflow) : 0;
+    PyErr_Clear();
+    if (!number || overflow != 0 || !std::in_range<int>(whole)) {
+        refuse(name + std::string(": expected a whole number of at most nine digits, got ") +
+               py::repr(value).cast<std::string>());
+    }
+    return static_cast<int>(whole);
+}
+
+/// An argument as a number; texts are none. Throws ValueError.
+double number(const py::handle& value, const char* name) {
+    const double number = PyFloat_AsDouble(value.ptr());
+    if (PyErr_Occurred() != nullptr) {
+        PyErr_Clear();
+        refuse(name + std::string(": expected a number, got ") + py::repr(value).cast<std::string>());
+    }
+    return number;
+}
+
+std::vector<double> coefficients_of(const py::handle& value) {
+    const Numbers numbers = finite_numbers(value, "coefficients");
+    if (numbers.ndim() != 1) { refuse("coefficients: expected an array of shape (n,), got " + shape_text(numbers)); }
+    return {numbers.data(), numbers.data() + numbers.size()};
+}
+
 /// The arguments of Camera in their order.
-Camera make_camera(int width, int height, double fov_deg, const py::object& matrix, const std::string& distortion,
-    std::vector<double> coefficients, int samples, int bits, double exposure, double noise, double shutter_s,
-    int blur_frames, double row_time_s) {
+Camera make_camera(const py::object& width, const py::object& height, const py::object& fov_deg,
+    const py::object& matrix, const py::object& distortion, const py::object& coefficients, const py::object& samples,
+    const py::object& bits, const py::object& exposure, const py::object& noise, const py::object& shutter_s,
+    const py::object& blur_frames, const py::object& row_time_s) {
     Camera camera;
-    camera.width = width;
-    camera.height = height;
-    camera.fov_deg = fov_deg;
+    camera.width = whole_number(width, "width");
+    camera.height = whole_number(height, "height");
+    camera.fov_deg = number(fov_deg, "fov_deg");
     if (!matrix.is_none()) { camera.intrinsics = intrinsics_of(matrix); }
-    camera.distortion = distortion_of(distortion);
-    camera.coefficients = std::move(coefficients);
-    camera.samples = samples;
-    camera.bits = bits;
-    camera.exposure = exposure;
-    camera.noise = noise;
-    camera.shutter_s = shutter_s;
-    camera.blur_frames = blur_frames;
-    camera.row_time_s = row_time_s;
+    camera.distortion = distortion_of(py::str(distortion).cast<std::string>());
+    camera.coefficients = coefficients_of(coefficients);
+    camera.samples = whole_number(samples, "samples");
+    camera.bits = whole_number(bits, "bits");
+    camera.exposure = number(exposure, "exposure");
+    camera.noise = number(noise, "noise");
+    camera.shutter_s = number(shutter_s, "shutter_s");
+    camera.blur_frames = whole_number(blur_frames, "blur_frames");
+    camera.row_time_s = number(row_time_s, "row_time_s");
     camera.check();
     return camera;
 }
@@ -112,7 +142,7 @@ Raises octant.Error, a ValueError, for values out of range.
 )")
         .def(py::init(&make_camera), py::arg("width") = 128, py::arg("height") = 128, py::arg("fov_deg") = 60.0,
             py::kw_only(), py::arg("K") = py::none(), py::arg("distortion") = "none",
-            py::arg("coefficients") = std::vector<double>(), py::arg("samples") = 16, py::arg("bits") = 8,
+            py::arg("coefficients") = py::tuple(), py::arg("samples") = 16, py::arg("bits") = 8,
             py::arg("exposure") = 1.0, py::arg("noise") = 0.0, py::arg("shutter_s") = 0.0, py::arg("blur_frames") = 1,
             py::arg("row_time_s") = 0.0)
         .def_readonly("width", &Camera::width, "Pixels.")
@@ -185,10 +215,9 @@ array([[0., 0., 1.]])
                                : ", fov_deg=" + py::repr(py::float_(camera.fov_deg)).cast<std::string>() + ")");
             })
         .def(py::pickle(&arguments_of, [](const py::tuple& from) {
-            return make_camera(from[0].cast<int>(), from[1].cast<int>(), from[2].cast<double>(), from[3],
-                from[4].cast<std::string>(), from[5].cast<std::vector<double>>(), from[6].cast<int>(),
-                from[7].cast<int>(), from[8].cast<double>(), from[9].cast<double>(), from[10].cast<double>(),
-                from[11].cast<int>(), from[12].cast<double>());
+            if (from.size() != 13) { refuse("camera: expected 13 values, got " + std::to_string(from.size())); }
+            return make_camera(from[0], from[1], from[2], from[3], from[4], from[5], from[6], from[7], from[8], from[9],
+                from[10], from[11], from[12]);
         }));
 
     module.def(

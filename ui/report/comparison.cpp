@@ -405,6 +405,14 @@ std::string change_text(const FrameChange& change) {
         100.0 * low, 100.0 * high);
 }
 
+/// "between 23.0 % faster and 438.2 % slower": the interval of a change alone, whose mean would say more than is known.
+std::string interval_text(const FrameChange& change) {
+    const auto end = [](double share) {
+        return fmt::format("{:.1f} % {}", 100.0 * std::abs(share), share < 0.0 ? "faster" : "slower");
+    };
+    return fmt::format("between {} and {}", end(change.low_share()), end(change.high_share()));
+}
+
 /// "; frames 210-260, plan stage +0.8 ms".
 std::string place_text(const FrameChange& change) {
     std::vector<std::string> parts;
@@ -428,7 +436,7 @@ std::string answer_of_one(const FlightChange& change, double limit, double resol
             is_told ? "" : fmt::format("; cannot tell whether more than {:.2g} % slower", 100.0 * limit);
         return text + place_text(change.frames) + beyond;
     }
-    return (is_told ? "no change found: " : "cannot tell: ") + text;
+    return is_told ? "no change found: " + text : "cannot tell: " + interval_text(change.frames);
 }
 
 } // namespace

@@ -216,7 +216,8 @@ void Sky::keep_triangles_in(const Frustum& frustum, std::size_t vertices, std::s
         for (int plane = 0; plane < 4; ++plane) {
             const glm::vec3& normal = inward[static_cast<std::size_t>(plane)];
             const Float4 inside_m = splat4(normal.x) * x_m + splat4(normal.y) * y_m + splat4(normal.z) * z_m;
-            outside |= (inside_m < limit) & (1 << plane);
+            const int bit = 1 << plane;
+            outside |= (inside_m < limit) & Mask4{bit, bit, bit, bit};
         }
         std::memcpy(&outside_[i], &outside, sizeof(outside));
     }

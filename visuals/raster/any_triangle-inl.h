@@ -200,12 +200,13 @@ HWY_INLINE void walk_perspective(
     const int end = std::max(std::min(column + block_px, last_column), column + 1);
     const double w_here = 1.0 / std::max(extra.over_w[4].at(column, row), 1e-30);
     const double w_end = 1.0 / std::max(extra.over_w[4].at(end, row), 1e-30);
+    constexpr double most = 250.0; // levels from the middle: in 16 bits, as is all between two such ends
     for (std::size_t i = 0; i < walk.base.size(); ++i) {
-        const double here = extra.over_w[i].at(column, row) * w_here;
-        const double there = extra.over_w[i].at(end, row) * w_end;
+        const double here = std::clamp(extra.over_w[i].at(column, row) * w_here, 128.0 - most, 128.0 + most);
+        const double there = std::clamp(extra.over_w[i].at(end, row) * w_end, 128.0 - most, 128.0 + most);
         const double per_px = (there - here) / (end - column);
-        walk.base[i] = static_cast<std::int32_t>(std::clamp((here - 128.0) * 128.0, -32000.0, 32000.0));
-        walk.per_px[i] = static_cast<std::int16_t>(std::clamp(per_px * 128.0, -2000.0, 2000.0));
+        walk.base[i] = static_cast<std::int32_t>((here - 128.0) * 128.0);
+        walk.per_px[i] = static_cast<std::int16_t>(std::clamp(per_px, -most, most) * 128.0);
     }
 }
 

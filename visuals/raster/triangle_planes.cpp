@@ -258,7 +258,9 @@ bool IsBetweenSamples(const TopDownVertices& vertices, const SamplePattern& samp
     const hn::RebindToSigned<Lanes> whole;
     constexpr std::int32_t per_px = ScreenVertex::per_px;
     constexpr float rounding = 0.25F; ///< more than the crossings of a painted triangle are rounded by
-    const auto& [top, middle, bottom, area] = vertices;
+    const ScreenVertex& top = vertices.top;
+    const ScreenVertex& middle = vertices.middle;
+    const ScreenVertex& bottom = vertices.bottom;
     const auto set = [&](std::int32_t value) HWY_ATTR { return hn::Set(lanes, static_cast<float>(value)); };
     const auto slope = [&](const ScreenVertex& from, const ScreenVertex& to)
                            HWY_ATTR { return hn::Div(set(to.x - from.x), set(to.y - from.y)); };

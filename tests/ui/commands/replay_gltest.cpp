@@ -184,7 +184,10 @@ TEST_CASE("beside a replay nothing may be asked for that changes pictures") {
     const std::string expected = "--replay: expected no option beside it that may change pictures";
     tests::check_refusal(replay(recorded(), {"--triangles", "5000"}), expected + ", got --triangles");
     tests::check_refusal(replay(recorded(), {"straight"}), expected + ", got path");
-    tests::check_refusal(replay(recorded(), {"--show", "no-shadows"}), expected + ", got --shadows");
+    tests::check_refusal(replay(recorded(), {"--show", "no-shadows"}), expected + ", got --show no-shadows");
+    tests::check_refusal(replay(recorded(), {"--show", "path-ribbon,no-roads"}), expected + ", got --show path-ribbon");
+    tests::check_refusal(replay(recorded(), {"--haze", "height=900"}), expected + ", got --haze height");
+    tests::check_refusal(replay(recorded(), {"--no-scenery"}), expected + ", got --no-scenery");
     tests::check_refusal(
         replay(recorded(), {"--settings", (recorded() / "run.json").string()}), expected + ", got --settings");
     tests::check_refusal(replay(recorded(), {"--record", recorded().string()}), "--record: expected another folder");

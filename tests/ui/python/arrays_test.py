@@ -57,12 +57,40 @@ class Arguments(unittest.TestCase):
             {"width": -1}, {"width": 0}, {"height": 10000}, {"fov_deg": 0}, {"fov_deg": float("nan")}, {"fov_deg": 180},
             {"K": np.eye(4)}, {"K": [[1, 2, 3], [0, 1, 0], [0, 0, 1]]}, {"distortion": "odd"}, {"samples": 3}, {"bits": 12},
             {"coefficients": [float("inf")]}, {"exposure": -1}, {"noise": float("nan")}, {"blur_frames": 0}, {"noise": 2},
-            {"blur_frames": 257}, {"fov_deg": 175}, {"row_time_s": 2}, {"coefficients": [0.1]},
+            {"blur_frames": 257}, {"fov_deg": 175}, {"row_time_s": 2}, {"coefficients": [0.1]}, {"coefficients": [[0.1]]},
+            {"distortion": None}, {"distortion": "\0"},
         ):  # fmt: skip
             with self.assertRaises(ValueError, msg=str(wrong)):
                 octant.Camera(**wrong)
-        with self.assertRaises(TypeError):
-            octant.Camera(width=1.5)
+
+    def test_arguments_of_a_wrong_type_are_named_in_one_line(self):
+        positions = octant.states([[0, 0, 500]])
+        for text, call in (
+            ("width: expected a whole number of at most nine digits, got 1.5", lambda: octant.Camera(width=1.5)),
+            ("height: expected a whole number of at most nine digits, got 18446744073709551616", lambda: octant.Camera(3, 2**64)),
+            ("bits: expected a whole number of at most nine digits, got '8'", lambda: octant.Camera(bits="8")),
+            ("fov_deg: expected a number, got '60'", lambda: octant.Camera(fov_deg="60")),
+            ("exposure: expected a number, got None", lambda: octant.Camera(exposure=None)),
+            ("coefficients: expected an array of numbers", lambda: octant.Camera(coefficients=None)),
+            ("camera: expected 13 values, got 1", lambda: octant.Camera.__new__(octant.Camera).__setstate__((1,))),
+            ("outputs: expected a name or several, got 5", lambda: world.render(camera, [0, 0, above], level, outputs=5)),
+            ("kind: expected a kind or several, got 5", lambda: octant.states([[0, 0, 500]], kind=5)),
+            ("terrain: expected a text or a path, got 1.5", lambda: octant.World(terrain=1.5)),
+            ("aircraft: expected a name or several, got 7", lambda: octant.World(aircraft=7)),
+            ("aircraft: expected a text or a path, got 7", lambda: octant.World(aircraft=[7])),
+            ("path: expected a text or a path, got 3", lambda: world.export(3)),
+            ("record: expected a text or a path, got 3", lambda: octant.fly("turn", record=3)),
+            ("rate_hz: expected an array of numbers", lambda: world.path_states("fast")),
+            ("rate_hz: expected a number, got an array of shape (2,)", lambda: world.path_states([1, 2])),
+            ("aircraft: expected a name, got 5", lambda: octant.PilotedAircraft(5, positions)),
+            ("start: expected octant.states() of one aircraft, got list", lambda: octant.PilotedAircraft("f15", [])),
+        ):
+            with self.assertRaises(ValueError, msg=text) as raised:
+                call()
+            self.assertIn(text, str(raised.exception))
+            self.assertNotIn("\n", str(raised.exception))
+        numpy_ones = octant.Camera(np.int64(48), np.uint8(32), np.float32(60), coefficients=np.zeros(0), exposure=1)
+        self.assertEqual(numpy_ones, camera)
 
     def test_arrays_with_gaps_and_of_other_numbers_are_copied(self):
         wide = np.zeros((3, 6))

@@ -101,13 +101,22 @@ class One(unittest.TestCase):
         self.assertGreater(rewards.mean(), 0.8)
 
     def test_wrong_arguments_are_refused(self):
-        for wrong in ({"view": "odd"}, {"step_s": 0}, {"outputs": ["odd"]}, {"start_error_m": -1}, {"path": "odd"}):
+        for wrong in (
+            {"view": "odd"}, {"step_s": 0}, {"step_s": np.inf}, {"step_s": np.nan}, {"step_s": "a"}, {"outputs": ["odd"]},
+            {"outputs": 5}, {"start_error_m": -1}, {"start_error_m": None}, {"path": "odd"},
+        ):  # fmt: skip
             with self.assertRaises(ValueError, msg=str(wrong)):
                 make(**wrong)
+        for count in (0, 1.5, None):
+            with self.assertRaises(ValueError, msg=str(count)):
+                octant.envs.batch(make, count=count)
         env = make()
         with self.assertRaises(ValueError):
             env.step([0, 0, 0, 0])
         env.reset(seed=1)
+        for seed in (1.5, "one", -1):
+            with self.assertRaises(ValueError, msg=str(seed)):
+                env.reset(seed=seed)
         for action in ([0, 0, 0], [0, 0, 0, np.nan], "left"):
             with self.assertRaises(ValueError):
                 env.step(action)

@@ -3,6 +3,7 @@
 import contextlib
 import os
 import pathlib
+import resource
 import signal
 import subprocess
 import sys
@@ -284,6 +285,22 @@ class Life(unittest.TestCase):
         os.kill(child, signal.SIGKILL)
         os.waitpid(child, 0)
         self.fail("the child did not end within 60 s")
+
+    def test_where_the_system_gives_no_more_threads_fewer_draw_the_same(self):
+        program = (
+            "import octant, resource\n"
+            "world = octant.World(triangles=300, scenery=False)\n"
+            "eyes = world.ground.random_positions(300)\n"
+            "draw = lambda threads: world.render(octant.Camera(8, 8), eyes, octant.attitudes(), threads=threads).rgb.tobytes()\n"
+            "expected = draw(1)\n"
+            "lines = open('/proc/self/status').read().splitlines()\n"
+            "used = next(int(line.split()[1]) * 1024 for line in lines if line.startswith('VmSize'))\n"
+            "resource.setrlimit(resource.RLIMIT_AS, (used + 2**30,) * 2)\n"  # for three stacks
+            "print(draw(300) == expected)\n"
+        )
+        large_stacks = lambda: resource.setrlimit(resource.RLIMIT_STACK, (2**28, resource.getrlimit(resource.RLIMIT_STACK)[1]))
+        child = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, preexec_fn=large_stacks)
+        self.assertEqual(child.stdout, "True\n", child.stderr)
 
     def test_control_c_ends_a_batch(self):
         program = (

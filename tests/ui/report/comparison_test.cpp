@@ -7,7 +7,9 @@
 #include <catch2/catch.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <fmt/format.h>
 
 using namespace octant;
@@ -198,6 +200,22 @@ TEST_CASE("a slower stage of recordings is told in one line, in a verdict and in
         Catch::Contains("draw stage +0.5 ms; cannot tell whether more than 10 % slower"));
     const std::string line = csv_line(change_columns(), change);
     CHECK_THAT(line, Catch::Contains(",rounds,6,6,110,") && Catch::Contains(",1,draw,0.50"));
+}
+
+TEST_CASE("of a change that may go either way only the interval is told") {
+    const ScratchFolder scratch;
+    std::vector<LoadedRecording> runs;
+    constexpr std::array<double, 8> ms{5.0, 4.0, 5.2, 9.0, 8.0, 5.0, 5.1, 6.0};
+    for (std::size_t r = 0; r < ms.size(); ++r) {
+        runs.push_back(recorded(scratch, r % 2 == 0 ? "paper" : "exact", ms[r], static_cast<int>(r)));
+    }
+    const auto changes = flight_changes(runs, compared_flights(runs, role_of_setting), role_of_setting);
+    REQUIRE(changes.size() == 1);
+    REQUIRE_FALSE(changes.front().is_changed());
+    CHECK(verdict_of(changes, 0.0, 0.02) == Verdict::CannotTell);
+    CHECK(answer_text(changes, 0.0, 0.02) == fmt::format("cannot tell: between {:.1f} % faster and {:.1f} % slower",
+                                                 -100.0 * changes.front().frames.low_share(),
+                                                 100.0 * changes.front().frames.high_share()));
 }
 
 TEST_CASE("flights of two recordings of each side have no interval, and that is said") {

@@ -257,4 +257,20 @@ TEST_CASE("levels between corners go straight, and correctly for perspective whe
     CHECK(pixel(picture, 32, 0).x == Approx(255.0 / 5.0).margin(2.0));
 }
 
+TEST_CASE("levels of a small triangle are right for perspective, however steep they are") {
+    FlatPlan plan(steps_size_px);
+    FlatTriangle triangle;
+    triangle.at_px = {glm::vec2(0.5F, 0.5F), glm::vec2(0.5F, 8.5F), glm::vec2(8.5F, 0.5F)};
+    triangle.depth_m = {1.0F, 1.0F, 1.02F};
+    triangle.colour = {0xff000000U, 0xff000000U, 0xffffffffU};
+    plan.paint({triangle});
+    const scene::Picture picture = drawn(plan.plan(), steps_size_px, 1);
+    for (int column = 1; column < 8; ++column) { // 31 to 33 levels a pixel
+        const double share = column / 8.0;
+        const double level = 255.0 * (share / 1.02) / (1.0 - share + share / 1.02);
+        CAPTURE(column);
+        CHECK(pixel(picture, column, 0).x == Approx(level).margin(2.0));
+    }
+}
+
 } // namespace octant::visuals::raster

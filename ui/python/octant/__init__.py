@@ -173,6 +173,24 @@ def _array(name, value):
         raise ValueError(f"{name}: expected an array, got lists of different lengths") from fault
 
 
+def _path(name, value):
+    """A path as text."""
+    try:
+        return os.fsdecode(value)
+    except TypeError:
+        raise ValueError(f"{name}: expected a text or a path, got {value!r}") from None
+
+
+def _several(name, value, what, kinds=str):
+    """One or several of `what`, as a tuple."""
+    if isinstance(value, kinds):
+        return (value,)
+    try:
+        return tuple(value)
+    except TypeError:
+        raise ValueError(f"{name}: expected {what} or several, got {value!r}") from None
+
+
 def _numbers(name, value):
     array = _array(name, value)
     if array.dtype.kind not in "fiu":
@@ -379,9 +397,10 @@ def states(
         if wrong.size:
             raise ValueError(f"{name}: expected finite numbers, got {wrong[0]}")
     if kind is not None:
-        kind = (kind,) * (shape[-1] if shape else 1) if isinstance(kind, str) else tuple(kind)
-        if len(kind) != (shape[-1] if shape else 1):
-            raise ValueError(f"kind: expected {shape[-1] if shape else 1} kinds, got {len(kind)}")
+        count = shape[-1] if shape else 1
+        kind = (kind,) * count if isinstance(kind, str) else _several("kind", kind, "a kind")
+        if len(kind) != count:
+            raise ValueError(f"kind: expected {count} kinds, got {len(kind)}")
     return States(arrays, kind)
 
 
@@ -448,7 +467,7 @@ class Frames:
 
 
 def _checked_outputs(outputs):
-    outputs = (outputs,) if isinstance(outputs, str) else tuple(outputs)
+    outputs = _several("outputs", outputs, "a name")
     if not outputs:
         raise ValueError(f"outputs: expected some of {', '.join(output_names)}, got none")
     for name in outputs:
@@ -512,9 +531,10 @@ class World:
         triangles: Optional[int] = None,
         **settings: Any,
     ) -> None:
-        aircraft = [aircraft] if isinstance(aircraft, (str, os.PathLike)) else list(aircraft)
+        aircraft = _several("aircraft", aircraft, "a name", (str, os.PathLike))
         named = {"sun_elevation_deg": sun_elevation_deg, "triangles": triangles}
-        self._made_of = (os.fspath(terrain), [os.fspath(each) for each in aircraft], {**named, **settings})
+        words = [_path("aircraft", each) for each in aircraft]
+        self._made_of = (_path("terrain", terrain), words, {**named, **settings})
         self._begin(None)
 
     def _begin(self, shared: Any) -> None:
@@ -666,10 +686,11 @@ class World:
             raise ValueError(f"out: expected octant.Frames, got {type(out).__name__}")
         arrays = out.arrays
         if outputs is not None:
-            missing = [name for name in _checked_outputs(outputs) if name not in arrays]
+            wanted = _checked_outputs(outputs)
+            missing = [name for name in wanted if name not in arrays]
             if missing:
-                raise ValueError(f"out: expected arrays for {', '.join(outputs)}, got none for {', '.join(missing)}")
-            arrays = {name: arrays[name] for name in _checked_outputs(outputs)}
+                raise ValueError(f"out: expected arrays for {', '.join(wanted)}, got none for {', '.join(missing)}")
+            arrays = {name: arrays[name] for name in wanted}
         opened.render(
             camera,
             eye,
@@ -738,7 +759,10 @@ class World:
 
         One each 1 / rate_hz seconds from its start, and the one at its end.
         """
-        return States(self._opened().path_states(rate_hz))
+        rate = _numbers("rate_hz", rate_hz)
+        if rate.ndim != 0:
+            raise ValueError(f"rate_hz: expected a number, got an array of shape {rate.shape}")
+        return States(self._opened().path_states(float(rate)))
 
     def export(
         self,
@@ -757,7 +781,7 @@ class World:
             eye = (0.0, 0.0, np.nan_to_num(opened.height_m([0.0], [0.0])[0]) + max(east_m, north_m))
         look = attitudes(pitch_deg=-90.0) if look is None else look
         camera = Camera(512, 512, fov_deg=90.0) if camera is None else camera
-        opened.export_scene(os.fspath(path), camera, eye, look)
+        opened.export_scene(_path("path", path), camera, eye, look)
 
 
 # Flights.
@@ -812,7 +836,7 @@ class Flight:
 
     def __init__(self, path: _Path, record: Optional[_Path], settings: dict[str, Any]) -> None:
         settings = {"path": path, **settings}
-        folder = "" if record is None else os.fspath(record)
+        folder = "" if record is None else _path("record", record)
         self._flight = _load(_octant.load_flight, settings, _setting_words(settings), folder)
 
     def __len__(self) -> int:
@@ -863,8 +887,8 @@ def report(recordings: Union[_Path, Sequence[_Path]], out: _Path) -> None:
 
     recordings: folders, packed recordings or captured frame times. out: the HTML file.
     """
-    recordings = [recordings] if isinstance(recordings, (str, os.PathLike)) else recordings
-    _octant.write_report([os.fspath(each) for each in recordings], os.fspath(out))
+    recordings = _several("recordings", recordings, "a recording", (str, os.PathLike))
+    _octant.write_report([_path("recordings", each) for each in recordings], _path("out", out))
 
 
 def recording(path: _Path) -> Recording:
@@ -885,6 +909,10 @@ class PilotedAircraft:
     """
 
     def __init__(self, aircraft: str, start: States) -> None:
+        if not isinstance(aircraft, str):
+            raise ValueError(f"aircraft: expected a name, got {aircraft!r}")
+        if not isinstance(start, States):
+            raise ValueError(f"start: expected octant.states() of one aircraft, got {type(start).__name__}")
         self._aircraft = _octant.PilotedAircraft(aircraft, start)
 
     def advance(self, roll: float, pitch: float, throttle: float, yaw: float, steps: int = 1) -> None:

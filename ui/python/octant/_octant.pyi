@@ -20,7 +20,7 @@ class Camera:
         *,
         K: Optional[ArrayLike] = None,
         distortion: str = "none",
-        coefficients: list[float] = [],
+        coefficients: ArrayLike = (),
         samples: int = 16,
         bits: int = 8,
         exposure: float = 1.0,

@@ -13,6 +13,7 @@
 from __future__ import annotations
 
 import math
+import numbers
 import threading
 import weakref
 from collections.abc import Callable, Sequence
@@ -174,11 +175,11 @@ class FollowPath:
     ) -> None:
         if view not in ("nose", "chase"):
             raise ValueError(f"view: expected nose or chase, got {view!r}")
+        if not isinstance(step_s, numbers.Real) or not 0.5 < step_s * octant._octant.steps_per_second <= 1e8:
+            raise ValueError(f"step_s: expected 1/120 s or more, at most 800,000 s, got {step_s!r}")
         self._steps = round(step_s * octant._octant.steps_per_second)
-        if self._steps < 1:
-            raise ValueError(f"step_s: expected 1/120 s or more, got {step_s}")
-        if not (np.isfinite(start_error_m) and start_error_m >= 0):
-            raise ValueError(f"start_error_m: expected a number not below 0, got {start_error_m}")
+        if not isinstance(start_error_m, numbers.Real) or not 0 <= start_error_m < np.inf:
+            raise ValueError(f"start_error_m: expected a number not below 0, got {start_error_m!r}")
         self.camera = octant.Camera(84, 84, fov_deg=80) if camera is None else camera
         self.outputs = octant._checked_outputs(outputs)
         self._shared = _shared_world(terrain, aircraft, {"path": path, **settings})
@@ -203,7 +204,7 @@ class FollowPath:
 
     def _begin(self, seed):
         if seed is not None:
-            self._random = np.random.default_rng(seed)
+            self._random = np.random.default_rng(octant._whole("seed", seed))
         offset = self._random.normal(0.0, 1.0, 3) * self._start_error_m
         first = self._path[0]
         place = first.position_m + offset
@@ -378,8 +379,7 @@ class Batch:
     action_space: Space
 
     def __init__(self, make: Callable[[], FollowPath], count: int) -> None:
-        if count < 1:
-            raise ValueError(f"count: expected 1 or more, got {count}")
+        count = octant._whole("count", count, least=1)
         self.envs = [make() for _ in range(count)]
         self.num_envs = count
         first = self.envs[0]
