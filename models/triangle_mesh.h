@@ -30,6 +30,8 @@ struct TriangleMesh {
     std::string name;
     std::vector<glm::dvec3> vertices_m;
     std::vector<glm::vec3> colours; ///< one a vertex, display values 0..1; empty = no colours
+    /// Whether `colours` are means of textures and materials around the vertices, for drawing without either.
+    bool colours_are_means = false;
     std::vector<Triangle> triangles;
     std::vector<glm::vec3> normals;       ///< unit vectors that corner_normals points into; often empty
     std::vector<Triangle> corner_normals; ///< one a triangle; empty where `normals` is

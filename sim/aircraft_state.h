@@ -38,6 +38,8 @@ struct AircraftState {
     /// The change of speed along the path, smoothed over about a second; with climb, drag and weight it says how much
     /// thrust the motion needs (flight_models.h).
     double speed_rate_mps2 = 0.0;
+    /// How fast it turns about its body axes: roll, pitch and yaw rate.
+    glm::dvec3 turn_rate_radps{0.0};
     /// False for an aircraft that nobody flies or whose track has not begun or has ended: nothing of it is shown.
     bool is_present = true;
 };

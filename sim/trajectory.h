@@ -23,6 +23,10 @@ enum class HeightMode {
 /// through both positions and velocities, attitude turned at a constant rate.
 AircraftState state_between(const AircraftState& a, const AircraftState& b, double time_s);
 
+/// The mean turn rate about the body axes from one state to a later one, rad/s; a chord in place of the arc, which is
+/// 1 % less at half a radian.
+glm::dvec3 turn_rate_radps(const AircraftState& a, const AircraftState& b);
+
 /// A flight as samples in time order with a state for every time between them.
 ///
 /// Positions run along cubic Hermite curves through the samples' positions and velocities, so position and velocity are
@@ -30,7 +34,7 @@ AircraftState state_between(const AircraftState& a, const AircraftState& b, doub
 class Trajectory {
 public:
     /// At least one sample, times strictly increasing (asserted; readers check before). Fills in the samples'
-    /// speed_rate_mps2 from their velocities.
+    /// speed_rate_mps2 from their velocities and turn_rate_radps from their attitudes.
     explicit Trajectory(std::vector<AircraftState> samples);
 
     std::span<const AircraftState> samples() const { return samples_; }

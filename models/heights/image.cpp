@@ -35,6 +35,13 @@ Dataset open(const path& file, const GdalSession& gdal) {
     return dataset;
 }
 
+/// Whether the parts of a band's colours have 16 bits, of which all are used: in PNG files, whose specification says
+/// so.
+bool has_16_bits(GDALDatasetH dataset, GDALRasterBandH band) {
+    const std::string_view driver = GDALGetDriverShortName(GDALGetDatasetDriver(dataset));
+    return GDALGetRasterDataType(band) == GDT_UInt16 && driver == "PNG";
+}
+
 /// The bands that hold red, green and blue: one and the same for grey and palettes.
 std::array<GDALRasterBandH, 3> colour_bands(const path& file, GDALDatasetH dataset) {
     const int count = GDALGetRasterCount(dataset);
@@ -51,7 +58,7 @@ std::array<GDALRasterBandH, 3> colour_bands(const path& file, GDALDatasetH datas
     for (std::size_t part = 0; part < 3; ++part) {
         bands.at(part) = GDALGetRasterBand(dataset, numbers.at(part));
         const GDALDataType type = GDALGetRasterDataType(bands.at(part));
-        if (type != GDT_Byte) {
+        if (type != GDT_Byte && !has_16_bits(dataset, bands.at(part))) {
             throw_error_in(
                 file, fmt::format("expected 8 bits a colour part (Byte), got {}", GDALGetDataTypeName(type)));
         }
@@ -64,10 +71,18 @@ void read_part(const path& file, GDALRasterBandH band, Image& image, int first, 
     GDALRasterIOExtraArg how;
     INIT_RASTERIO_EXTRA_ARG(how);
     how.eResampleAlg = GDALGetRasterColorTable(band) != nullptr ? GRIORA_NearestNeighbour : GRIORA_Average;
+    const bool is_deep = GDALGetRasterDataType(band) == GDT_UInt16;
+    std::vector<std::uint16_t> deep(is_deep ? image.rgba.size() / 4 : 0);
+    void* const to = is_deep ? static_cast<void*>(deep.data()) : image.rgba.data() + first;
+    const GSpacing bytes = is_deep ? 2 : 4;
     const CPLErr result =
-        GDALRasterIOEx(band, GF_Read, 0, 0, GDALGetRasterBandXSize(band), GDALGetRasterBandYSize(band),
-            image.rgba.data() + first, image.width, image.height, GDT_Byte, 4, GSpacing{4} * image.width, &how);
+        GDALRasterIOEx(band, GF_Read, 0, 0, GDALGetRasterBandXSize(band), GDALGetRasterBandYSize(band), to, image.width,
+            image.height, is_deep ? GDT_UInt16 : GDT_Byte, bytes, bytes * image.width, &how);
     if (result != CE_None || gdal.failed()) { throw_unreadable(file, "an image", gdal.reason(file)); }
+    for (std::size_t i = 0; i < deep.size(); ++i) {
+        constexpr unsigned steps = 257; // 65535 is as bright as 255
+        image.rgba[4 * i + static_cast<std::size_t>(first)] = static_cast<std::uint8_t>((deep[i] + steps / 2) / steps);
+    }
 }
 
 /// Alpha: a pixel is there when any of its parts is.

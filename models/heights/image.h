@@ -39,9 +39,10 @@ struct Image {
 /// resolution, averaged, and `note` says so.
 inline constexpr int max_image_px = 16384;
 
-/// Reads an image of 8 bits a part: GeoTIFF, PNG, JPEG, BMP, SGI, TGA, GIF or WebP with red, green and blue, grey or a
-/// palette, with or without alpha or a value for no data. Nothing else is opened, no network is used and nothing is
-/// written. A file counts as placed when it has both a coordinate system and a pixel size, in it or in a side file
+/// Reads an image of 8 bits a part, of PNG also of 16: GeoTIFF, PNG, JPEG, BMP, SGI, TGA, GIF or WebP with red, green
+/// and blue, grey or a palette, with or without alpha or a value for no data. Nothing else is opened, no network is
+/// used and nothing is written. A file counts as placed when it has both a coordinate system and a pixel size, in it or
+/// in a side file
 /// (.aux.xml, .tfw and the like). Memory: 4 bytes a pixel.
 ///
 /// Throws Error "file: expected ..., got ..." for no readable file, a damaged one, other kinds of file and other

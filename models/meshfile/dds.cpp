@@ -22,7 +22,7 @@ constexpr std::size_t dds_header_bytes = 128;
 constexpr std::size_t dx10_bytes = 20;
 constexpr std::uint32_t max_dds_side = 16384;
 
-enum class Coding { Bc1, Bc2, Bc3, Bc4, Plain };
+enum class Coding { Bc1, Bc2, Bc3, Bc4, Bc5, Plain };
 
 /// How the pixels of a file are coded.
 struct Layout {
@@ -43,7 +43,7 @@ constexpr std::uint32_t code(std::string_view letters) {
 }
 
 [[noreturn]] void refuse_format(const std::string& name, const std::string& got) {
-    throw Error(fmt::format("{}: expected a DDS picture of BC1 to BC4 or of plain pixels, got {}", name, got));
+    throw Error(fmt::format("{}: expected a DDS picture of BC1 to BC5 or of plain pixels, got {}", name, got));
 }
 
 /// By its number in the header of DirectX 10 (DXGI_FORMAT).
@@ -52,6 +52,7 @@ Layout layout_of_number(const std::string& name, std::uint32_t number) {
     if (number >= 73 && number <= 75) { return {Coding::Bc2, 0, {}}; }
     if (number >= 76 && number <= 78) { return {Coding::Bc3, 0, {}}; }
     if (number == 79 || number == 80) { return {Coding::Bc4, 0, {}}; }
+    if (number == 82 || number == 83) { return {Coding::Bc5, 0, {}}; }
     if (number >= 27 && number <= 29) { return {Coding::Plain, 32, {0xff, 0xff00, 0xff0000, 0xff000000}}; }
     if (number == 87 || number == 91) { return {Coding::Plain, 32, {0xff0000, 0xff00, 0xff, 0xff000000}}; }
     if (number == 88 || number == 93) { return {Coding::Plain, 32, {0xff0000, 0xff00, 0xff, 0}}; }
@@ -66,9 +67,9 @@ Layout layout_of(const std::string& name, std::string_view bytes) {
     const std::uint32_t flags = number(80);
     if ((flags & has_code) != 0) {
         const std::uint32_t letters = number(84);
-        constexpr std::array<std::pair<std::string_view, Coding>, 7> known{
-            {{"DXT1", Coding::Bc1}, {"DXT2", Coding::Bc2}, {"DXT3", Coding::Bc2}, {"DXT4", Coding::Bc3},
-                {"DXT5", Coding::Bc3}, {"ATI1", Coding::Bc4}, {"BC4U", Coding::Bc4}}};
+        constexpr std::array<std::pair<std::string_view, Coding>, 9> known{{{"DXT1", Coding::Bc1},
+            {"DXT2", Coding::Bc2}, {"DXT3", Coding::Bc2}, {"DXT4", Coding::Bc3}, {"DXT5", Coding::Bc3},
+            {"ATI1", Coding::Bc4}, {"BC4U", Coding::Bc4}, {"ATI2", Coding::Bc5}, {"BC5U", Coding::Bc5}}};
         for (const auto& [word, coding] : known) {
             if (letters == code(word)) { return {coding, 0, {}}; }
         }
@@ -144,6 +145,12 @@ Block block_at(const char* from, Coding coding) {
     if (coding == Coding::Bc4) {
         const std::array<std::uint8_t, 16> values = ramp_values(from);
         for (std::size_t i = 0; i < 16; ++i) { block.at(i) = {values.at(i), values.at(i), values.at(i), 255}; }
+        return block;
+    }
+    if (coding == Coding::Bc5) {
+        const std::array<std::uint8_t, 16> red = ramp_values(from);
+        const std::array<std::uint8_t, 16> green = ramp_values(from + 8);
+        for (std::size_t i = 0; i < 16; ++i) { block.at(i) = {red.at(i), green.at(i), 0, 255}; }
         return block;
     }
     read_colours(coding == Coding::Bc1 ? from : from + 8, coding == Coding::Bc1, block);

@@ -27,6 +27,7 @@
 #include <iterator>
 #include <limits>
 #include <map>
+#include <memory>
 #include <optional>
 #include <set>
 #include <string>
@@ -139,6 +140,50 @@ std::string plain_path(std::string_view path) {
     return plain;
 }
 
+/// A property that follows a control: its value is `scale` times the control's position.
+struct ControlledProperty {
+    std::string_view end_of_path;
+    FlightControl control = FlightControl::Roll;
+    double scale = 1.0;
+};
+
+/// The first one that fits counts. Radians are those of surfaces that turn by 20 degrees.
+constexpr std::array controlled_properties{ControlledProperty{"right-aileron-pos-norm", FlightControl::Roll, -1.0},
+    ControlledProperty{"aileron-pos-norm", FlightControl::Roll, 1.0},
+    ControlledProperty{"right-aileron-pos-rad", FlightControl::Roll, -0.35},
+    ControlledProperty{"aileron-pos-rad", FlightControl::Roll, 0.35},
+    ControlledProperty{"right-aileron-pos-deg", FlightControl::Roll, -20.0},
+    ControlledProperty{"aileron-pos-deg", FlightControl::Roll, 20.0},
+    ControlledProperty{"controls/flight/aileron", FlightControl::Roll, 1.0},
+    ControlledProperty{"elevator-pos-norm", FlightControl::Pitch, -1.0},
+    ControlledProperty{"elevator-pos-rad", FlightControl::Pitch, -0.35},
+    ControlledProperty{"elevator-pos-deg", FlightControl::Pitch, -20.0},
+    ControlledProperty{"controls/flight/elevator", FlightControl::Pitch, -1.0},
+    ControlledProperty{"rudder-pos-norm", FlightControl::Yaw, 1.0},
+    ControlledProperty{"rudder-pos-rad", FlightControl::Yaw, -0.35},
+    ControlledProperty{"rudder-pos-deg", FlightControl::Yaw, -20.0},
+    ControlledProperty{"controls/flight/rudder", FlightControl::Yaw, 1.0},
+    ControlledProperty{"flap-pos-norm", FlightControl::Flaps, 1.0},
+    ControlledProperty{"flaps-pos-norm", FlightControl::Flaps, 1.0},
+    ControlledProperty{"slat-pos-norm", FlightControl::Flaps, 1.0},
+    ControlledProperty{"slats-pos-norm", FlightControl::Flaps, 1.0},
+    ControlledProperty{"controls/flight/flaps", FlightControl::Flaps, 1.0},
+    ControlledProperty{"speedbrake-pos-norm", FlightControl::SpeedBrake, 1.0},
+    ControlledProperty{"spoiler-pos-norm", FlightControl::SpeedBrake, 1.0},
+    ControlledProperty{"spoilers-pos-norm", FlightControl::SpeedBrake, 1.0},
+    ControlledProperty{"controls/flight/speedbrake", FlightControl::SpeedBrake, 1.0},
+    ControlledProperty{"gear-pos-norm", FlightControl::Gear, 1.0},
+    ControlledProperty{"controls/gear/gear-down", FlightControl::Gear, 1.0}};
+
+/// `path`: plain.
+std::optional<ControlledProperty> controlled_property(std::string_view path) {
+    const bool is_gear = path.find("gear/gear") != path.npos && path.ends_with("/position-norm");
+    if (is_gear) { return ControlledProperty{{}, FlightControl::Gear, 1.0}; }
+    const auto* const found = std::ranges::find_if(
+        controlled_properties, [&](const ControlledProperty& one) { return path.ends_with(one.end_of_path); });
+    return found == controlled_properties.end() ? std::nullopt : std::optional(*found);
+}
+
 /// What properties are worth at rest: what an aircraft's -set.xml states, then a table, else nothing, which is 0 or an
 /// empty text.
 class RestingProperties {
@@ -153,18 +198,28 @@ public:
             counts[child.name] = number + 1;
             const std::string name = number > 0 ? fmt::format("{}[{}]", child.name, number) : child.name;
             const std::string child_path = path.empty() ? name : fmt::format("{}/{}", path, name);
-            if (child.children.empty() && values_.size() < most) { values_.try_emplace(child_path, child.text); }
+            if (child.children.empty() && values_->size() < most) { values_->try_emplace(child_path, child.text); }
             if (depth < deepest) { take(child, child_path, depth + 1); }
         }
     }
 
+    /// The same with a control at a position; shares what the aircraft states.
+    RestingProperties with(FlightControl control, double position) const {
+        RestingProperties moved = *this;
+        moved.positions_[static_cast<std::size_t>(control)] = position;
+        return moved;
+    }
+
     std::string text(std::string_view property) const {
         const std::string path = plain_path(property);
+        if (const auto controlled = controlled_property(path)) {
+            return fmt::format("{}", controlled->scale * positions_[static_cast<std::size_t>(controlled->control)]);
+        }
         const auto* const resting = std::ranges::find_if(
             resting_values, [&](const RestingValue& one) { return path.ends_with(one.end_of_path); });
         if (resting != resting_values.end()) { return std::string(resting->value); }
-        const auto stated = values_.find(path);
-        return stated == values_.end() ? std::string() : stated->second;
+        const auto stated = values_->find(path);
+        return stated == values_->end() ? std::string() : stated->second;
     }
 
     double number(std::string_view property) const {
@@ -184,7 +239,10 @@ private:
         RestingValue{"current-view/internal", "0"}, RestingValue{"position-norm", "0"}, RestingValue{"wow", "0"},
         RestingValue{"crashed", "0"}, RestingValue{"sim/freeze/replay-state", "0"}};
 
-    std::map<std::string, std::string> values_; ///< by plain paths
+    /// By plain paths.
+    std::shared_ptr<std::map<std::string, std::string>> values_ =
+        std::make_shared<std::map<std::string, std::string>>();
+    ControlPositions positions_{};
 };
 
 bool holds(const XmlElement& condition, const RestingProperties& properties);
@@ -253,12 +311,25 @@ struct FlightGearRotation {
     std::string rotor = {};
 };
 
-/// Where a `rotate` or `translate` animation puts what it names at rest: landing gear up, for one.
-/// Axes of the FlightGear model.
+/// Where a `rotate` or `translate` animation puts what it names at rest, landing gear up, for one, and how a control
+/// moves it from there, or shows and hides it. Axes of the FlightGear model.
 struct FlightGearRestPlacement {
     Names objects; ///< by name; an empty one: all of the model
     AffineTransform placement;
+    std::optional<PartMove> move = {};
 };
+
+/// A move of something that lies placed in another thing's axes.
+PartMove placed_move(PartMove move, const AffineTransform& placement) {
+    move.point_m = placement.turn * move.point_m + placement.shift_m;
+    move.direction = glm::normalize(placement.turn * move.direction);
+    return move;
+}
+
+PartMoves placed_moves(PartMoves moves, const AffineTransform& placement) {
+    for (PartMove& move : moves) { move = placed_move(std::move(move), placement); }
+    return moves;
+}
 
 /// What the animations of one FlightGear model do to the objects of its mesh and to its sub-models, by their names;
 /// axes of that model.
@@ -289,6 +360,18 @@ struct FlightGearAnimations {
             if (move.objects.contains(object) && turn_of(object) == nullptr) { place = place.of(move.placement); }
         }
         return place;
+    }
+
+    /// How controls move an object from there; the empty name stands for all of the model.
+    PartMoves moves_of(const std::string& object) const {
+        PartMoves all;
+        AffineTransform place;
+        for (const FlightGearRestPlacement& move : moves) {
+            if (!move.objects.contains(object) || turn_of(object) != nullptr) { continue; }
+            if (move.move) { all.push_back(placed_move(*move.move, place)); }
+            place = place.of(move.placement);
+        }
+        return all;
     }
 };
 
@@ -427,15 +510,27 @@ std::optional<FlightGearRestPlacement> placement_at_rest(
         !holds_at_rest(animation, properties)) {
         return std::nullopt;
     }
-    const double value = value_at_rest(animation, turns ? "-deg" : "-m", properties);
-    if (value == 0.0) { // then its axis does not count: files have faulty ones
+    const std::string_view unit = turns ? "-deg" : "-m";
+    const double value = value_at_rest(animation, unit, properties);
+    FlightGearRestPlacement move;
+    if (const auto controlled = controlled_property(plain_path(animation.text_of("property")))) {
+        move.move = sampled_move(
+            turns ? PartMove::Kind::Turn : PartMove::Kind::Shift, controlled->control, [&](double position) {
+                const double there = value_at_rest(animation, unit, properties.with(controlled->control, position));
+                return turns ? rad_from_deg(there) : there;
+            });
+    }
+    if (value == 0.0 && !move.move) { // then its axis does not count: files have faulty ones
         return std::nullopt;
     }
     RotationAxis axis = axis_in(animation);
     const double length = glm::length(axis.direction);
     if (!(length > 0.0)) { return std::nullopt; }
     axis.direction /= length;
-    FlightGearRestPlacement move;
+    if (move.move) {
+        move.move->point_m = axis.point_m;
+        move.move->direction = axis.direction;
+    }
     move.placement =
         turns ? turned_about(axis, rad_from_deg(value)) : AffineTransform{glm::dmat3(1.0), value * axis.direction};
     move.objects = objects_of(animation);
@@ -513,6 +608,24 @@ bool hides(const XmlElement& animation, const RestingProperties& properties, std
     }
 }
 
+/// How landing gear shows and hides what a `select` animation names; nothing for one that it does not decide, and for
+/// other animations.
+std::optional<FlightGearRestPlacement> shown_by_gear(const XmlElement& animation, const RestingProperties& properties) {
+    if (animation.text_of("type") != "select") { return std::nullopt; }
+    FlightGearRestPlacement shown;
+    const bool at_rest = holds_at_rest(animation, properties);
+    bool changes = false;
+    shown.move = sampled_move(PartMove::Kind::Show, FlightControl::Gear, [&](double position) {
+        const bool there = holds_at_rest(animation, properties.with(FlightControl::Gear, position));
+        changes = changes || there != at_rest;
+        return there ? 1.0 : 0.0;
+    });
+    if (!changes || !shown.move) { return std::nullopt; }
+    shown.objects = objects_of(animation);
+    if (shown.objects.empty()) { shown.objects.insert(""); }
+    return shown;
+}
+
 /// `root`: of flightgear_tree(file).
 FlightGearAnimations flightgear_animations(const XmlElement& root, const RestingProperties& properties) {
     const Groups groups = groups_in(root);
@@ -520,7 +633,10 @@ FlightGearAnimations flightgear_animations(const XmlElement& root, const Resting
     for (const XmlElement& child : root.children) {
         const std::string kind(child.text_of("type"));
         if (child.name != "animation" || kind.empty()) { continue; }
-        if (kind == "range" || kind == "select" || kind == "light") {
+        if (auto shown = shown_by_gear(child, properties)) {
+            expand(shown->objects, groups);
+            animated.moves.push_back(std::move(*shown));
+        } else if (kind == "range" || kind == "select" || kind == "light") {
             if (hides(child, properties, animated.notes)) {
                 Names objects = objects_of(child);
                 if (objects.empty()) { objects.insert(""); }
@@ -536,10 +652,11 @@ FlightGearAnimations flightgear_animations(const XmlElement& root, const Resting
             expand(objects, groups);
             for (const std::string& object : objects) { animated.pictures.insert_or_assign(object, picture); }
         } else {
-            ++animated.at_rest[kind];
             if (kind == "translate" || kind == "rotate") { add_shadows(child, animated.hidden); }
             const auto rest = [&](const XmlElement& animation) { return placement_at_rest(animation, properties); };
-            if (auto move = unless_faulty(rest, child, animated.notes)) {
+            auto move = unless_faulty(rest, child, animated.notes);
+            if (!move || !move->move) { ++animated.at_rest[kind]; }
+            if (move) {
                 expand(move->objects, groups);
                 animated.moves.push_back(std::move(*move));
             }
@@ -571,14 +688,13 @@ public:
     FlightGearReading(const fs::path& path, const ReadOptions& options) : path_(path), options_(options) {}
 
     RotatingModel read() {
-        take_model(model_file(), {}, nullptr, 0);
+        take_model(model_file(), {}, 0);
         join_turning();
-        if (model_.body.triangles.empty()) { // all of it turns: then none of it does
-            for (RotatingPart& part : std::exchange(model_.parts, {})) {
-                join_mesh(model_.body, std::move(part.mesh), {});
-            }
+        if (model_.body.triangles.empty()) { // all of it moves: then none of it does
+            const std::vector<RotatingPart> parts = std::exchange(model_.parts, {});
+            const TransparentSurfaces clear = std::exchange(model_.clear, {});
+            model_.body = mesh_at_rest({std::move(model_.body), parts, clear});
         }
-        if (model_.body.triangles.empty()) { join_mesh(model_.body, std::exchange(model_.clear, {}).mesh, {}); }
         if (model_.body.triangles.empty()) { throw_error_in(path_, "expected a model with a mesh, got none"); }
         if (const std::size_t all = model_.body.notes.size(); all > max_notes) {
             model_.body.notes.resize(max_notes);
@@ -624,20 +740,27 @@ private:
         return {turn, {number_in(*found, "x-m"), number_in(*found, "y-m"), number_in(*found, "z-m")}};
     }
 
-    /// `about`: what turns all of it; null for what does not turn as a whole.
-    void take_model(const fs::path& file, const AffineTransform& parent, const FlightGearRotation* about, int depth) {
+    /// What a model inherits from those that hold it.
+    struct Inherited {
+        AffineTransform placement;
+        const FlightGearRotation* about = nullptr; ///< what turns all of it; null for what does not turn as a whole
+        PartMoves moves;                           ///< axes of the whole
+    };
+
+    void take_model(const fs::path& file, const Inherited& parent, int depth) {
         if (extension_of(file) != ".xml") {
-            add_mesh(file, parent, {}, about);
+            add_mesh(file, parent, {});
             return;
         }
         if (depth > max_model_depth || ++models_ > max_models) {
             throw_error_in(file, fmt::format("expected models at most {} deep, got more", max_model_depth));
         }
         const XmlElement root = flightgear_tree(file);
-        AffineTransform own = parent.of(offsets(root));
+        Inherited own = parent;
+        own.placement = parent.placement.of(offsets(root));
         const FlightGearAnimations animated = animations_of(root, own);
         if (animated.hidden.contains("") && depth > 0) { return; }
-        about = about == nullptr ? animated.turn_of("") : about;
+        if (own.about == nullptr) { own.about = animated.turn_of(""); }
         options_.pictures_in = flightgear_pictures(file, std::string(root.text_of("texture-path")));
         if (const std::string name(root.text_of("path")); !name.empty()) {
             if (depth == 0 && flightgear_file(file, name).empty()) {
@@ -649,7 +772,7 @@ private:
                     options_.repainted[object] = fs::absolute(found).string();
                 }
             }
-            take_named(file, name, own, animated, about, depth);
+            take_named(file, name, own, animated, depth);
         }
         options_.repainted.clear();
         options_.pictures_in.clear();
@@ -658,50 +781,83 @@ private:
             const std::string name(child.text_of("name"));
             const bool is_hidden = !name.empty() && animated.hidden.contains(name);
             if (child.name == "model" && !path.empty() && !is_hidden && holds_at_rest(child, properties_)) {
-                const FlightGearRotation* turned = about == nullptr && !name.empty() ? animated.turn_of(name) : about;
-                const AffineTransform moved = name.empty() ? own : own.of(animated.place_of(name));
-                take_named(file, path, moved.of(offsets(child)), {}, turned, depth);
+                Inherited moved = own;
+                if (!name.empty()) {
+                    if (own.about == nullptr) { moved.about = animated.turn_of(name); }
+                    add_moves(placed_moves(animated.moves_of(name), own.placement), moved.moves);
+                    moved.placement = own.placement.of(animated.place_of(name));
+                }
+                moved.placement = moved.placement.of(offsets(child));
+                take_named(file, path, moved, {}, depth);
             }
         }
     }
 
-    /// Also moves `own`, the model, to where it stands at rest.
-    FlightGearAnimations animations_of(const XmlElement& root, AffineTransform& own) {
+    static void add_moves(PartMoves inner, PartMoves& moves) {
+        moves.insert(moves.end(), std::make_move_iterator(inner.begin()), std::make_move_iterator(inner.end()));
+    }
+
+    /// Also moves `own`, the model, to where it stands at rest, and adds what moves all of it.
+    FlightGearAnimations animations_of(const XmlElement& root, Inherited& own) {
         FlightGearAnimations animated = flightgear_animations(root, properties_);
-        own = own.of(animated.place_of(""));
+        add_moves(placed_moves(animated.moves_of(""), own.placement), own.moves);
+        own.placement = own.placement.of(animated.place_of(""));
         for (FlightGearRotation& turn : animated.turns) {
-            turn.about.point_m = own.turn * turn.about.point_m + own.shift_m;
-            turn.about.direction = own.turn * turn.about.direction;
+            turn.about.point_m = own.placement.turn * turn.about.point_m + own.placement.shift_m;
+            turn.about.direction = own.placement.turn * turn.about.direction;
         }
         for (const auto& [kind, count] : animated.at_rest) { at_rest_[kind] += count; }
         std::ranges::for_each(animated.notes, [&](const std::string& note) { note_once(note); });
         return animated;
     }
 
-    void take_named(const fs::path& from, const std::string& name, const AffineTransform& placement,
-        const FlightGearAnimations& animated, const FlightGearRotation* about, int depth) {
+    void take_named(const fs::path& from, const std::string& name, const Inherited& inherited,
+        const FlightGearAnimations& animated, int depth) {
         const fs::path file = flightgear_file(from, name);
         if (file.empty()) {
             note_once(fmt::format("{}: no file of path '{}'", from.string(), printable(name)));
         } else if (extension_of(file) == ".xml") {
-            take_sub_model(file, placement, about, depth + 1);
+            take_sub_model(file, inherited, depth + 1);
         } else if (is_mesh_file(file)) {
-            add_mesh(file, placement, animated, about);
+            add_mesh(file, inherited, animated);
         } else {
             note_once(file.string() + ": sub-models of this kind are left out");
         }
     }
 
     /// A faulty file below the first one costs itself alone.
-    void take_sub_model(
-        const fs::path& file, const AffineTransform& placement, const FlightGearRotation* about, int depth) {
+    void take_sub_model(const fs::path& file, const Inherited& inherited, int depth) {
         try {
-            take_model(file, placement, about, depth);
+            take_model(file, inherited, depth);
         } catch (const Error& fault) { note_once(fmt::format("{}; what else is in there is left out", fault.what())); }
     }
 
-    void add_mesh(const fs::path& file, const AffineTransform& placement, const FlightGearAnimations& animated,
-        const FlightGearRotation* about) {
+    /// Objects that the same moves move, in axes of the whole.
+    struct MovedObjects {
+        Names objects;
+        PartMoves moves;
+    };
+
+    static std::vector<MovedObjects> moved_objects(const FlightGearAnimations& animated, const Inherited& inherited) {
+        std::vector<MovedObjects> moved;
+        Names named;
+        for (const FlightGearRestPlacement& move : animated.moves) {
+            if (move.move) { named.insert(move.objects.begin(), move.objects.end()); }
+        }
+        named.erase("");
+        for (const std::string& object : named) {
+            PartMoves moves = inherited.moves;
+            add_moves(placed_moves(animated.moves_of(object), inherited.placement), moves);
+            if (moves.size() == inherited.moves.size()) { continue; }
+            const auto known = std::ranges::find(moved, moves, &MovedObjects::moves);
+            MovedObjects& group = known != moved.end() ? *known : moved.emplace_back(MovedObjects{{}, moves});
+            group.objects.insert(object);
+        }
+        return moved;
+    }
+
+    void add_mesh(const fs::path& file, const Inherited& inherited, const FlightGearAnimations& animated) {
+        const FlightGearRotation* about = inherited.about;
         if (!animated.turns.empty() && extension_of(file) != ".ac") {
             note_once(file.string() + ": its objects are not told apart, so none of them turns");
         }
@@ -712,30 +868,26 @@ private:
                 options.moved[object] = in_ac3d(animated.place_of(object));
             }
         }
-        for (const FlightGearRotation& turn : animated.turns) {
-            if (about == nullptr) { options.groups.push_back(turn.objects); }
+        std::vector<MovedObjects> moved;
+        if (about == nullptr) {
+            for (const FlightGearRotation& turn : animated.turns) { options.groups.push_back(turn.objects); }
+            moved = moved_objects(animated, inherited);
+            for (const MovedObjects& group : moved) { options.groups.push_back(group.objects); }
         }
         try {
             MeshParts parts = read_parts(file, options);
-            const AffineTransform placed = in_model(file, placement);
-            join_mesh(about == nullptr ? model_.body : turning_mesh(*about), std::move(parts.body), placed);
+            const AffineTransform placed = in_model(file, inherited.placement);
+            const bool moves = about != nullptr || !inherited.moves.empty();
+            join_mesh(moves ? moving_mesh(about, inherited.moves) : model_.body, std::move(parts.body), placed);
             for (std::size_t i = 0; i < parts.groups.size(); ++i) {
-                if (!parts.groups[i].triangles.empty()) {
-                    join_mesh(turning_mesh(animated.turns[i]), std::move(parts.groups[i]), placed);
-                }
+                if (parts.groups[i].triangles.empty()) { continue; }
+                const bool turns = i < animated.turns.size();
+                join_mesh(turns ? moving_mesh(&animated.turns[i], inherited.moves)
+                                : moving_mesh(nullptr, moved[i - animated.turns.size()].moves),
+                    std::move(parts.groups[i]), placed);
             }
-            join_clear(std::move(parts.clear), placed);
+            add_clear(model_.clear, std::move(parts.clear), placed);
         } catch (const Error& fault) { note_once(fmt::format("{}; this sub-model is left out", fault.what())); }
-    }
-
-    void join_clear(TransparentSurfaces more, const AffineTransform& placed) {
-        const std::size_t count = more.mesh.triangles.size();
-        if (count == 0) { return; }
-        TransparentSurfaces& all = model_.clear;
-        join_mesh(all.mesh, std::move(more.mesh), placed);
-        const float share = static_cast<float>(count) / static_cast<float>(all.mesh.triangles.size());
-        all.opacity =
-            all.mesh.triangles.size() == count ? more.opacity : all.opacity + (more.opacity - all.opacity) * share;
     }
 
     /// A move within a model, within an AC3D file.
@@ -747,19 +899,23 @@ private:
         return placement.of({extension_of(file) == ".ac" ? from_ac3d : glm::dmat3(1.0)});
     }
 
-    /// What turns in one way, as it stands in its file.
+    /// What turns and moves in one way, as it stands in its file and at rest.
     struct TurningMesh {
         FlightGearRotation turn;
+        PartMoves moves;
         TriangleMesh mesh;
     };
 
-    TriangleMesh& turning_mesh(const FlightGearRotation& turn) {
+    /// `about`: null for what does not turn by time.
+    TriangleMesh& moving_mesh(const FlightGearRotation* about, const PartMoves& moves) {
+        const FlightGearRotation turn = about == nullptr ? FlightGearRotation{} : *about;
         const auto known = std::ranges::find_if(turning_, [&](const TurningMesh& one) {
             return one.turn.about.point_m == turn.about.point_m && one.turn.about.direction == turn.about.direction &&
                    one.turn.about.turns_per_s == turn.about.turns_per_s && one.turn.blade == turn.blade &&
-                   one.turn.rotor == turn.rotor && one.turn.first_angle_rad == turn.first_angle_rad;
+                   one.turn.rotor == turn.rotor && one.turn.first_angle_rad == turn.first_angle_rad &&
+                   one.moves == moves;
         });
-        return known != turning_.end() ? known->mesh : turning_.emplace_back(TurningMesh{turn, {}}).mesh;
+        return known != turning_.end() ? known->mesh : turning_.emplace_back(TurningMesh{turn, moves, {}}).mesh;
     }
 
     /// Turns blades to where they stand at time 0, evenly around their rotor's axis.
@@ -776,22 +932,24 @@ private:
                 one.turn.first_angle_rad + (is_backward ? -1.0 : 1.0) * share * rad_from_deg(360.0);
             const AffineTransform turned =
                 angle_rad == 0.0 ? AffineTransform() : turned_about(one.turn.about, angle_rad);
-            join_mesh(part_about(one.turn.about), std::move(one.mesh), turned);
+            if (!one.mesh.triangles.empty()) {
+                join_mesh(part_about(one.turn.about, one.moves), std::move(one.mesh), turned);
+            }
         }
         turning_.clear();
     }
 
     /// The mesh of what turns about an axis: of several blades it is the same.
-    TriangleMesh& part_about(const RotationAxis& about) {
+    TriangleMesh& part_about(const RotationAxis& about, const PartMoves& moves) {
         constexpr double near_m = 0.01;
         for (RotatingPart& part : model_.parts) {
             const glm::dvec3 across_m = glm::cross(part.about.direction, about.point_m - part.about.point_m);
             if (glm::dot(part.about.direction, about.direction) > 1.0 - 1e-6 && glm::length(across_m) < near_m &&
-                std::abs(part.about.turns_per_s - about.turns_per_s) < 1e-9) {
+                std::abs(part.about.turns_per_s - about.turns_per_s) < 1e-9 && part.moves == moves) {
                 return part.mesh;
             }
         }
-        return model_.parts.emplace_back(RotatingPart{{}, about}).mesh;
+        return model_.parts.emplace_back(RotatingPart{{}, about, moves}).mesh;
     }
 
     void note_once(const std::string& note) {
@@ -810,23 +968,8 @@ private:
 
 } // namespace
 
-RotatingModel read_rotating_model(const fs::path& path, const ReadOptions& options) {
-    if (extension_of(path) == ".xml") { return FlightGearReading(path, options).read(); }
-    if (extension_of(path) == ".dnm") { return read_rotating_dnm(path, options); }
-    ReadOptions alone = options;
-    alone.placeholders = false;
-    MeshParts parts = read_parts(path, alone);
-    if (parts.body.triangles.empty()) { // then nothing is to be seen through the rest
-        return {read_mesh(path, options), {}, {}};
-    }
-    return {std::move(parts.body), {}, std::move(parts.clear)};
-}
-
-TriangleMesh read_flightgear_model(const fs::path& path, const ReadOptions& options) {
-    RotatingModel model = read_rotating_model(path, options);
-    for (RotatingPart& part : model.parts) { join_mesh(model.body, std::move(part.mesh), {}); }
-    join_mesh(model.body, std::move(model.clear.mesh), {});
-    return std::move(model.body);
+RotatingModel read_flightgear_model(const fs::path& path, const ReadOptions& options) {
+    return FlightGearReading(path, options).read();
 }
 
 } // namespace octant::models::meshfile

@@ -827,6 +827,18 @@ private:
     }
 
     /// Materials come in the order of their first primitive.
+    void count_undrawn(const Json& material) {
+        constexpr std::array<std::pair<const char*, const char*>, 2> beside{
+            {{"normalTexture", "normals"}, {"emissiveTexture", "glow"}}};
+        for (const auto& [key, kind] : beside) {
+            if (material.contains(key)) { mesh_.add_undrawn_picture(kind); }
+        }
+        const auto rough = material.find("pbrMetallicRoughness");
+        if (rough != material.end() && rough->is_object() && rough->contains("metallicRoughnessTexture")) {
+            mesh_.add_undrawn_picture("metal and roughness");
+        }
+    }
+
     std::uint32_t used_material(std::size_t index) {
         if (materials_[index] != invalid_index) { return materials_[index]; }
         const std::string where = fmt::format("materials[{}]", index);
@@ -834,6 +846,7 @@ private:
         const Json name = json.value("name", Json());
         Material made{.name = name.is_string() ? name.get<std::string>() : fmt::format("material {}", index)};
         made.colour = glm::vec3(1.0F); // as glTF has it
+        count_undrawn(json);
         float opacity = 1.0F;
         const auto rough = json.find("pbrMetallicRoughness");
         if (rough != json.end() && rough->is_object()) {

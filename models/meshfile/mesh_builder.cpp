@@ -230,6 +230,7 @@ void BakedPictures::bake(TriangleMesh& mesh) const {
         const Sum& sum = sums[firsts[v]];
         if (sum.weight > 0.0) { mesh.colours[v] = glm::vec3(sum.colour / sum.weight); }
     }
+    mesh.colours_are_means = store_ != nullptr;
 }
 
 namespace {
@@ -350,8 +351,18 @@ void MeshBuilder::add_triangle(const std::array<CornerIndices, 3>& corners, std:
     has_materials_ = has_materials_ || material != invalid_index;
 }
 
+void MeshBuilder::note_undrawn() {
+    if (undrawn_.empty()) { return; }
+    std::string kinds;
+    for (const auto& [kind, count] : undrawn_) {
+        kinds += fmt::format("{}{} {}", kinds.empty() ? "" : ", ", count, kind);
+    }
+    add_note(fmt::format("{}: pictures that are not drawn, by what they are for: {}", path_.string(), kinds));
+}
+
 TriangleMesh MeshBuilder::finish() {
     if (mesh_.triangles.empty()) { throw_error_in(path_, "expected at least one triangle, got none"); }
+    note_undrawn();
     if (!mesh_.colours.empty()) { mesh_.colours.resize(mesh_.vertices_m.size(), glm::vec3(1.0F)); }
     finish_part();
     return std::move(mesh_);
@@ -413,15 +424,22 @@ TriangleMesh MeshBuilder::part_of(const Kept& is_kept, std::vector<std::string>&
 
 MeshParts MeshBuilder::finish_parts() {
     if (mesh_.triangles.empty()) { throw_error_in(path_, "expected at least one triangle, got none"); }
+    note_undrawn();
     find_opacities();
     drop_invisible();
     if (!mesh_.colours.empty()) { mesh_.colours.resize(mesh_.vertices_m.size(), glm::vec3(1.0F)); }
     MeshParts parts;
     std::vector<std::string> notes = mesh_.notes;
     parts.body = part_of([&](std::size_t t) { return groups_[t] == invalid_index && !is_transparent(t); }, notes);
-    for (std::uint32_t group = 0; group < options_.groups.size(); ++group) {
-        parts.groups.push_back(
-            part_of([&](std::size_t t) { return groups_[t] == group && !is_transparent(t); }, notes));
+    if (!options_.groups.empty()) { // each part is cut out of a copy: of the groups alone, which are small
+        std::vector<bool> gone(mesh_.triangles.size());
+        for (std::size_t t = 0; t < gone.size(); ++t) { gone[t] = groups_[t] == invalid_index || is_transparent(t); }
+        MeshBuilder grouped(*this);
+        grouped.take_out(gone);
+        erase_unused_vertices(grouped.mesh_);
+        for (std::uint32_t group = 0; group < options_.groups.size(); ++group) {
+            parts.groups.push_back(grouped.part_of([&](std::size_t t) { return grouped.groups_[t] == group; }, notes));
+        }
     }
     parts.clear.mesh = part_of([&](std::size_t t) { return is_transparent(t); }, notes, true);
     parts.clear.opacity = opacity_of_transparent();

@@ -191,6 +191,9 @@ public:
     void add_polygon(std::span<const CornerIndices> corners, std::uint32_t material = invalid_index,
         const PolygonPicture& picture = {});
 
+    /// Counts a picture that is not drawn, by what it is for, such as "normals"; the mesh gets a note on them.
+    void add_undrawn_picture(const std::string& kind) { ++undrawn_[kind]; }
+
     void add_note(std::string note) { mesh_.notes.push_back(std::move(note)); }
 
     /// Returns the finished mesh. Throws Error if it has no triangle.
@@ -200,6 +203,7 @@ public:
     MeshParts finish_parts();
 
 private:
+    void note_undrawn();
     bool is_transparent(std::size_t triangle) const;
     float opacity_of(std::size_t triangle) const;
     void drop_invisible();
@@ -231,6 +235,7 @@ private:
     std::vector<glm::dvec3> places_m_;         ///< corners of the polygon being added
     std::vector<float> opacities_;             ///< one for each material
     std::vector<bool> two_sided_;              ///< one for each triangle
+    std::map<std::string, int> undrawn_;       ///< pictures, by what they are for
     std::vector<std::uint32_t> groups_;        ///< one for each triangle
     std::vector<BakedPictures::Cover> covers_; ///< one for each triangle, once computed
     std::vector<Smoothing> smoothings_;        ///< one for each triangle

@@ -40,7 +40,7 @@ std::optional<polygons::FileAxes> axes_of_format(const std::filesystem::path& fi
     const std::string ending = extension_of(file);
     if (ending == ".ac") { return polygons::FileAxes::from_text("back,up,left"); }
     if (ending == ".dnm" || ending == ".srf") { return polygons::FileAxes::from_text("left,up,forward"); }
-    if (ending == ".obj" && is_xplane_object(file)) { return polygons::FileAxes(); }
+    if (ending == ".acf" || (ending == ".obj" && is_xplane_object(file))) { return polygons::FileAxes(); }
     if (ending == ".xml") { return polygons::FileAxes::from_text("back,right,up"); }
     return std::nullopt;
 }
@@ -132,7 +132,7 @@ void write_gltf_mesh(const std::filesystem::path& path, const TriangleMesh& mesh
 
 struct Format {
     std::string_view ending;
-    MeshBuilder (*read)(const std::filesystem::path&, const ReadOptions&);      ///< null: read_flightgear_model
+    MeshBuilder (*read)(const std::filesystem::path&, const ReadOptions&);      ///< null: read_rotating_model
     bool has_parts = false;                                                     ///< else all is body
     void (*write)(const std::filesystem::path&, const TriangleMesh&) = nullptr; ///< null: it is only read
     /// What a written file leaves out, of "normals", "colours of vertices", "materials" and "texture coordinates".
@@ -149,7 +149,7 @@ constexpr std::array formats{Format{".obj", read_obj, true, write_obj_mesh},
     Format{".glb", read_gltf, true, write_gltf_mesh<glb_bytes>, "", true, true},
     Format{".ac", read_ac3d, true, write_ac3d_mesh, "normals, colours of vertices"},
     Format{".wrl", read_vrml, false, write_one_file<vrml_text>, "texture coordinates"}, Format{".dnm", read_dnm, true},
-    Format{".srf", read_srf, true}, Format{".xml", nullptr}};
+    Format{".srf", read_srf, true}, Format{".xml", nullptr}, Format{".acf", nullptr}};
 
 const Format* find_format(const std::filesystem::path& path) {
     const std::string ending = extension_of(path);
@@ -173,7 +173,7 @@ constexpr std::array file_starts{FileStart{"PSSD", "a scenery file of X-Plane"},
     FileStart{"ISO-10303-21", "a STEP file: FreeCAD writes it as OBJ"}};
 
 /// The end of X-Plane's and others' names, whose files have no start of their own.
-constexpr std::array file_endings{FileStart{".acf", "an aircraft of X-Plane, whose surfaces are in its objects (.obj)"},
+constexpr std::array file_endings{
     FileStart{".mdl", "a model of Microsoft Flight Simulator: ModelConverterX writes it as glTF"},
     FileStart{".max", "a scene of 3ds Max, which writes it as FBX"},
     FileStart{".skp", "a model of SketchUp, which writes it as Collada"},
@@ -229,7 +229,23 @@ std::shared_ptr<const std::string> picture_bytes_of(const Material& material) {
 
 TriangleMesh read_mesh(const std::filesystem::path& path, const ReadOptions& options) {
     const Format& format = format_of(path);
-    return format.read == nullptr ? read_flightgear_model(path, options) : format.read(path, options).finish();
+    return format.read == nullptr ? mesh_at_rest(read_rotating_model(path, options))
+                                  : format.read(path, options).finish();
+}
+
+RotatingModel read_rotating_model(const std::filesystem::path& path, const ReadOptions& options) {
+    const std::string ending = extension_of(path);
+    if (ending == ".xml") { return read_flightgear_model(path, options); }
+    if (ending == ".dnm") { return read_rotating_dnm(path, options); }
+    if (ending == ".acf") { return read_xplane_aircraft(path, options); }
+    if (ending == ".obj" && is_xplane_object(path)) { return read_rotating_xplane(path, options); }
+    ReadOptions alone = options;
+    alone.placeholders = false;
+    MeshParts parts = read_parts(path, alone);
+    if (parts.body.triangles.empty()) { // then nothing is to be seen through the rest
+        return {read_mesh(path, options), {}, {}};
+    }
+    return {std::move(parts.body), {}, std::move(parts.clear)};
 }
 
 MeshParts read_parts(const std::filesystem::path& path, const ReadOptions& options) {

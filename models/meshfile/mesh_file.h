@@ -18,11 +18,12 @@ namespace octant::models::meshfile {
 
 /// Reads a triangle mesh. The file's extension selects the format: .obj (with vertex colours), .ply (ASCII, binary of
 /// both byte orders), .stl (ASCII, binary), .off (ASCII, read only), .gltf and .glb, .ac (AC3D), .wrl (VRML 2.0
-/// IndexedFaceSet), .dnm and .srf (YSFlight, read only), X-Plane's OBJ8 in .obj files, .xml (a FlightGear model with
-/// its sub-models, or an aircraft's -set.xml, which names its model; read only). Polygons are cut into triangles;
-/// repair::repaired makes further changes. Scene nodes are placed, and mirrored nodes get their orientation back. Axes
-/// and units are those of the file. Integer colours are scaled to 0..1. Colours are display values (models/material.h);
-/// the linear colours of glTF are converted.
+/// IndexedFaceSet), .dnm and .srf (YSFlight, read only), X-Plane's OBJ8 in .obj files, .acf (an aircraft of X-Plane 10
+/// and later, which names its objects; read only), .xml (a FlightGear model with its sub-models, or an aircraft's
+/// -set.xml, which names its model; read only). Polygons are cut into triangles; repair::repaired makes further
+/// changes. Scene nodes are placed, and mirrored nodes get their orientation back. Axes and units are those of the
+/// file. Integer colours are scaled to 0..1. Colours are display values (models/material.h); the linear colours of glTF
+/// are converted.
 ///
 /// Texture coordinates and picture names are read from .obj, .ac, .wrl and glTF files, texture coordinates alone from
 /// .ply and .off, pictures only if `options` ask for them. Ignored: lines, points, attributes that TriangleMesh does
@@ -40,31 +41,9 @@ TriangleMesh read_mesh(const std::filesystem::path& path, const ReadOptions& opt
 /// is mostly transparent, and invisible surfaces, are left out. Throws Error.
 MeshParts read_parts(const std::filesystem::path& path, const ReadOptions& options);
 
-/// The axis of a rotation in flight; file axes, metres.
-struct RotationAxis {
-    glm::dvec3 point_m{0.0};
-    glm::dvec3 direction{1.0, 0.0, 0.0}; ///< unit; positive turns follow the right-hand rule
-    double turns_per_s = 0.0;
-};
-
-/// A propeller or a rotor, at its position at time 0.
-struct RotatingPart {
-    TriangleMesh mesh;
-    RotationAxis about;
-};
-
-/// A model with its rotating parts and its transparent surfaces as separate meshes.
-struct RotatingModel {
-    TriangleMesh body; ///< never empty
-    std::vector<RotatingPart> parts;
-    TransparentSurfaces clear;
-};
-
-/// As read_mesh, for the same files; only FlightGear's and YSFlight's models have parts. Throws Error.
+/// As read_mesh, for the same files; only FlightGear's, X-Plane's and YSFlight's models have parts. Parts that are
+/// hidden at rest, such as landing gear, are among these parts alone. Throws Error.
 RotatingModel read_rotating_model(const std::filesystem::path& path, const ReadOptions& options);
-
-/// A YSFlight model (.dnm) with its propellers and rotors. Throws Error.
-RotatingModel read_rotating_dnm(const std::filesystem::path& path, const ReadOptions& options);
 
 /// Whether a file is an X-Plane object (OBJ8), by its first lines; false where it cannot be read.
 bool is_xplane_object(const std::filesystem::path& path);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "models/meshfile/mesh_builder.h"
+#include "models/meshfile/mesh_parts.h"
 #include "models/polygons/polygon_model.h"
 #include "models/triangle_mesh.h"
 
@@ -33,8 +34,11 @@ bool is_xplane_text(std::string_view text);
 /// An X-Plane object (OBJ8) with this text. Throws Error.
 MeshBuilder read_xplane(const std::filesystem::path& path, std::string_view text, const ReadOptions& options);
 
-/// A FlightGear model with its rotating and transparent parts in one mesh. Throws Error.
-TriangleMesh read_flightgear_model(const std::filesystem::path& path, const ReadOptions& options);
+/// The readers behind read_rotating_model: FlightGear's .xml, YSFlight's .dnm, X-Plane's .obj and .acf. Throw Error.
+RotatingModel read_flightgear_model(const std::filesystem::path& path, const ReadOptions& options);
+RotatingModel read_rotating_dnm(const std::filesystem::path& path, const ReadOptions& options);
+RotatingModel read_rotating_xplane(const std::filesystem::path& path, const ReadOptions& options);
+RotatingModel read_xplane_aircraft(const std::filesystem::path& path, const ReadOptions& options);
 
 /// OBJ and MTL text of a mesh; `mtl_name` is what the OBJ text calls its material file (no mtllib line without
 /// materials). Numbers have the digits that it takes to read them back bit for bit.

@@ -135,6 +135,9 @@ void join_mesh(TriangleMesh& to, TriangleMesh from, const AffineTransform& place
         return;
     }
     place(from, placement);
+    const auto has_own = [](const TriangleMesh& mesh) { return !mesh.colours.empty() && !mesh.colours_are_means; };
+    const bool has_means = to.colours_are_means || from.colours_are_means;
+    to.colours_are_means = has_means && !has_own(to) && !has_own(from);
     if (!to.colours.empty() || !from.colours.empty()) {
         colour_vertices(to);
         colour_vertices(from);

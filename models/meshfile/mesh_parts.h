@@ -1,7 +1,10 @@
 #pragma once
 
 #include "models/meshfile/mesh_join.h"
+#include "models/part_motion.h"
 #include "models/triangle_mesh.h"
+
+#include <glm/vec3.hpp>
 
 #include <filesystem>
 #include <map>
@@ -49,11 +52,39 @@ struct TransparentSurfaces {
     float opacity = 1.0F; ///< mean of the materials, between 0 and 1
 };
 
+/// Appends transformed transparent surfaces to others; the opacity is the mean by triangles.
+void add_clear(TransparentSurfaces& to, TransparentSurfaces from, const AffineTransform& placement);
+
 /// A mesh in separate parts, any of which may be empty.
 struct MeshParts {
     TriangleMesh body;                ///< also has the notes of all parts
     std::vector<TriangleMesh> groups; ///< as ReadOptions::groups
     TransparentSurfaces clear;
 };
+
+/// The axis of a rotation in flight; file axes, metres.
+struct RotationAxis {
+    glm::dvec3 point_m{0.0};
+    glm::dvec3 direction{1.0, 0.0, 0.0}; ///< unit; positive turns follow the right-hand rule
+    double turns_per_s = 0.0;
+};
+
+/// A part that turns by time, such as a propeller, or that controls move, such as a rudder, or both.
+struct RotatingPart {
+    TriangleMesh mesh;  ///< as at time 0 and at rest
+    RotationAxis about; ///< 0 turns where it does not turn by time
+    /// They move what `about` has turned. File axes.
+    PartMoves moves = {};
+};
+
+/// A model with its rotating parts and its transparent surfaces as separate meshes.
+struct RotatingModel {
+    TriangleMesh body; ///< never empty
+    std::vector<RotatingPart> parts;
+    TransparentSurfaces clear;
+};
+
+/// All of a model as at rest in one mesh.
+TriangleMesh mesh_at_rest(RotatingModel model);
 
 } // namespace octant::models::meshfile

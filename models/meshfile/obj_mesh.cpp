@@ -189,6 +189,9 @@ private:
         for (const auto& [material, picture] : read.emissive_pictures) {
             emissive_pictures_.insert_or_assign(material, picture);
         }
+        for (const auto& [kind, count] : read.undrawn_pictures) {
+            for (int i = 0; i < count; ++i) { mesh_.add_undrawn_picture(kind); }
+        }
         return true;
     }
 

@@ -267,7 +267,7 @@ struct YsflightPart {
     std::string surface;
     long kind = 0;
     YsflightState place;
-    std::optional<YsflightState> first_state;
+    std::vector<YsflightState> states; ///< the first one is that at rest
     glm::dvec3 centre_m{0.0};
     std::vector<std::string> children;
 };
@@ -280,6 +280,79 @@ constexpr long fast_propeller = 20;
 constexpr long spinner = 24;
 constexpr long first_light = 30;
 constexpr long last_light = 34;
+
+constexpr std::size_t most_states = 3;
+
+/// Which control brings parts of a kind from their first state to another one, and how far: the shares of the way at
+/// the positions of the control.
+struct PartControl {
+    long kind = 0;
+    FlightControl control = FlightControl::Gear;
+    std::size_t state = 1;
+    std::array<glm::dvec2, 4> shares{};
+};
+
+/// Gear comes out while the second fifth to the fourth fifth of its time pass, its doors open before and partly shut
+/// after it. Of surfaces the second state is nose up, roll to the left and nose to the left, the third one the
+/// opposite.
+constexpr std::array part_controls{
+    PartControl{0, FlightControl::Gear, 1, {{{0.0, 0.0}, {0.2, 0.0}, {0.8, 1.0}, {1.0, 1.0}}}},
+    PartControl{14, FlightControl::Gear, 1, {{{0.0, 0.0}, {0.2, 1.0}, {0.8, 1.0}, {1.0, 0.0}}}},
+    PartControl{15, FlightControl::Gear, 1, {{{0.0, 0.0}, {0.6, 1.0}, {0.8, 1.0}, {1.0, 1.0}}}},
+    PartControl{17, FlightControl::Gear, 1, {{{0.0, 0.0}, {0.2, 1.0}, {0.8, 1.0}, {1.0, 1.0}}}},
+    PartControl{4, FlightControl::SpeedBrake, 1, {{{-1.0, 0.0}, {0.0, 0.0}, {1.0, 1.0}, {2.0, 1.0}}}},
+    PartControl{5, FlightControl::Flaps, 1, {{{-1.0, 0.0}, {0.0, 0.0}, {1.0, 1.0}, {2.0, 1.0}}}},
+    PartControl{6, FlightControl::Pitch, 1, {{{-1.0, 0.0}, {0.0, 0.0}, {1.0, 1.0}, {2.0, 1.0}}}},
+    PartControl{6, FlightControl::Pitch, 2, {{{-2.0, 1.0}, {-1.0, 1.0}, {0.0, 0.0}, {1.0, 0.0}}}},
+    PartControl{7, FlightControl::Roll, 1, {{{-2.0, 1.0}, {-1.0, 1.0}, {0.0, 0.0}, {1.0, 0.0}}}},
+    PartControl{7, FlightControl::Roll, 2, {{{-1.0, 0.0}, {0.0, 0.0}, {1.0, 1.0}, {2.0, 1.0}}}},
+    PartControl{8, FlightControl::Yaw, 1, {{{-2.0, 1.0}, {-1.0, 1.0}, {0.0, 0.0}, {1.0, 0.0}}}},
+    PartControl{8, FlightControl::Yaw, 2, {{{-1.0, 0.0}, {0.0, 0.0}, {1.0, 1.0}, {2.0, 1.0}}}}};
+
+PartMove move_along(const PartControl& by, PartMove::Kind kind, double amount) {
+    PartMove move;
+    move.kind = kind;
+    move.control = by.control;
+    for (const glm::dvec2& share : by.shares) { move.amounts.emplace_back(share.x, share.y * amount); }
+    return move;
+}
+
+/// What brings a part, which lies in `holder`, from its first state to another one.
+void add_state_moves(const PartControl& by, const YsflightPart& part, const AffineTransform& holder, PartMoves& moves) {
+    const YsflightState& rest = part.states[0];
+    const YsflightState& other = part.states[by.state];
+    if (rest.is_shown != other.is_shown) {
+        PartMove show;
+        show.kind = PartMove::Kind::Show;
+        show.control = by.control;
+        for (const glm::dvec2& share : by.shares) {
+            const bool is_at_rest = share.y == 0.0;
+            show.amounts.emplace_back(share.x, (is_at_rest ? rest : other).is_shown ? 1.0 : 0.0);
+        }
+        moves.push_back(std::move(show));
+    }
+    const glm::dvec3 shift_m = holder.turn * (other.placement.shift_m - rest.placement.shift_m);
+    if (const double far_m = glm::length(shift_m); far_m > 0.0) {
+        moves.push_back(move_along(by, PartMove::Kind::Shift, far_m));
+        moves.back().direction = shift_m / far_m;
+    }
+    const glm::dquat turn = glm::quat_cast(other.placement.turn * glm::transpose(rest.placement.turn));
+    const glm::dvec3 half(turn.x, turn.y, turn.z);
+    if (const double sine = glm::length(half); sine > 1e-9) {
+        moves.push_back(move_along(by, PartMove::Kind::Turn, 2.0 * std::atan2(sine, turn.w)));
+        moves.back().direction = glm::normalize(holder.turn * (half / sine));
+        moves.back().point_m = holder.turn * rest.placement.shift_m + holder.shift_m;
+    }
+}
+
+/// What moves a part, which lies in `holder`: what moves its holder, and its own control.
+PartMoves moved(const YsflightPart& part, const AffineTransform& holder, const PartMoves& of_holder) {
+    PartMoves moves = of_holder;
+    for (const PartControl& by : part_controls) {
+        if (by.kind == part.kind && by.state < part.states.size()) { add_state_moves(by, part, holder, moves); }
+    }
+    return moves;
+}
 
 bool turns_in_flight(const YsflightPart& part) {
     return part.kind == propeller_kind || part.kind == slow_propeller || part.kind == spinner;
@@ -310,25 +383,28 @@ public:
     /// All of it in one mesh.
     MeshBuilder mesh() {
         SurfaceMesh all(path_, options_);
-        for_each_shown([&](const YsflightPart&, const Surface& surface, const AffineTransform& placement) {
-            all.add(surface, placement);
-        });
+        for_each_part(
+            [&](const YsflightPart&, const Surface& surface, const AffineTransform& placement, const PartMoves& moves) {
+                if (is_shown_at_rest(moves)) { all.add(surface, placement); }
+            });
         return noted(all.take());
     }
 
     RotatingModel rotating() {
         SurfaceMesh body(path_, options_);
         RotatingModel model;
-        for_each_shown([&](const YsflightPart& part, const Surface& surface, const AffineTransform& placement) {
-            if (!turns_in_flight(part) || surface.polygons.empty()) {
+        for_each_part([&](const YsflightPart& part, const Surface& surface, const AffineTransform& placement,
+                          const PartMoves& moves) {
+            const bool turns = turns_in_flight(part) && !surface.polygons.empty();
+            if (!turns && moves.empty()) {
                 body.add(surface, placement);
                 return;
             }
-            SurfaceMesh turning(path_, options_);
-            turning.add(surface, placement);
-            if (!turning.is_empty()) {
-                model.parts.push_back({turning.take().finish(), rotation_of(surface, placement)});
-            }
+            SurfaceMesh moving(path_, options_);
+            moving.add(surface, placement);
+            if (moving.is_empty()) { return; }
+            model.parts.push_back(
+                {moving.take().finish(), turns ? rotation_of(surface, placement) : RotationAxis(), moves});
         });
         if (body.is_empty()) { return {mesh().finish(), {}, {}}; }
         MeshParts parts = noted(body.take()).finish_parts();
@@ -371,8 +447,8 @@ private:
                 part.kind = text.integer("a kind of part");
             } else if (is_keyword(word, "POS")) {
                 part.place = state(text);
-            } else if (is_keyword(word, "STA") && !part.first_state) {
-                part.first_state = state(text);
+            } else if (is_keyword(word, "STA") && part.states.size() < most_states) {
+                part.states.push_back(state(text));
             } else if (is_keyword(word, "CNT")) {
                 part.centre_m = mirrored_triple(text);
             } else if (is_keyword(word, "CLD")) {
@@ -403,19 +479,21 @@ private:
         return read;
     }
 
-    /// Calls `visit(part, surface, placement)` for the parts that are seen in flight.
+    /// Calls `visit(part, surface, placement, moves)` for the parts that are seen in flight, also for those that only
+    /// their moves show.
     template <typename Visit>
-    void for_each_shown(const Visit& visit) {
+    void for_each_part(const Visit& visit) {
         std::set<std::string> children;
         for (const auto& [name, part] : parts_) { children.insert(part.children.begin(), part.children.end()); }
         met_.clear();
         for (const std::string& name : order_) {
-            if (!children.contains(name)) { visit_part(name, {}, 0, visit); }
+            if (!children.contains(name)) { visit_part(name, {}, {}, 0, visit); }
         }
     }
 
     template <typename Visit>
-    void visit_part(const std::string& name, const AffineTransform& parent, int depth, const Visit& visit) {
+    void visit_part(const std::string& name, const AffineTransform& parent, const PartMoves& parent_moves, int depth,
+        const Visit& visit) {
         const auto found = parts_.find(name);
         if (found == parts_.end() || !met_.insert(name).second) { return; }
         if (depth > max_ysflight_depth) {
@@ -423,12 +501,15 @@ private:
         }
         const YsflightPart& part = found->second;
         AffineTransform placement = parent.of(part.place.placement);
-        if (part.first_state) { placement = placement.of(part.first_state->placement); }
+        const PartMoves moves = moved(part, placement, parent_moves);
+        if (!part.states.empty()) { placement = placement.of(part.states[0].placement); }
         placement = placement.of({glm::dmat3(1.0), -part.centre_m});
-        if (is_shown(part)) {
-            if (const Surface* surface = surface_of(part)) { visit(part, *surface, placement); }
+        const bool shown_later =
+            std::ranges::any_of(moves, [](const PartMove& move) { return move.kind == PartMove::Kind::Show; });
+        if (is_shown(part) || shown_later) {
+            if (const Surface* surface = surface_of(part)) { visit(part, *surface, placement, moves); }
         }
-        for (const std::string& child : part.children) { visit_part(child, placement, depth + 1, visit); }
+        for (const std::string& child : part.children) { visit_part(child, placement, moves, depth + 1, visit); }
     }
 
     /// Lights, flames and discs of fast propellers are not.
@@ -439,7 +520,7 @@ private:
             (part.kind == fast_propeller && has_slow)) {
             return false;
         }
-        return !part.first_state || part.first_state->is_shown;
+        return part.states.empty() || part.states[0].is_shown;
     }
 
     const Surface* surface_of(const YsflightPart& part) {

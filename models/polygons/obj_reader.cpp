@@ -46,6 +46,11 @@ public:
                 made_.pictures.emplace_back(material_, picture());
             } else if (keyword == "map_Ke" && !text_.words().empty()) {
                 made_.emissive_pictures.emplace_back(material_, picture().file);
+                ++made_.undrawn_pictures["glow"];
+            } else if (keyword == "map_Bump" || keyword == "map_bump" || keyword == "bump" || keyword == "norm") {
+                ++made_.undrawn_pictures["normals"];
+            } else if (keyword == "map_Ks" || keyword == "map_Ns") {
+                ++made_.undrawn_pictures["highlights"];
             } else if ((keyword == "d" || keyword == "Tr") && text_.words().size() == 1) {
                 const auto value = text_.take_number();
                 if (!value || *value < 0.0 || *value > 1.0) { continue; }

@@ -30,6 +30,7 @@ struct MtlFile {
     std::vector<Material> materials; ///< `newmtl NAME` and its `Kd R G B` as display values, in file order
     std::vector<std::pair<std::string, MtlPicture>> pictures;           ///< material and `map_Kd`, in file order
     std::vector<std::pair<std::string, std::string>> emissive_pictures; ///< material and the file of `map_Ke`
+    std::map<std::string, int> undrawn_pictures; ///< how many, by what they are for: normals, highlights, glow
     std::map<std::string, float> opacities;                             ///< by material, below 1: `d`, else 1 - `Tr`
 };
 

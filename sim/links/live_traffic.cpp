@@ -40,6 +40,8 @@ void LiveTrack::add(const LiveSample& sample) {
     const std::size_t count = samples_.size();
     if (count > 1 && sample.state.time_s - samples_[count - 2].state.time_s < min_apart_s) { samples_.pop_back(); }
     samples_.push_back(sample);
+    AircraftState& state = samples_.back().state;
+    state.turn_rate_radps = glm::conjugate(state.body_to_world) * sample.world_radps;
     while (samples_.size() > 2 && samples_[1].state.time_s < sample.state.time_s - kept_s) { samples_.pop_front(); }
 }
 

@@ -25,6 +25,19 @@ TEST_CASE("a trajectory goes through its samples and stays at its ends") {
     CHECK(path.state_at(9.0).position_m.x == 10.0);
 }
 
+TEST_CASE("a trajectory knows how fast it turns about its body axes") {
+    const auto rolled = [](double time_s, double roll_rad) {
+        AircraftState state = sample(time_s, {0, 0, 0}, {10, 0, 0}, 0);
+        state.body_to_world = body_to_world_from_euler({1.0, 0.2, roll_rad});
+        return state;
+    };
+    const Trajectory path({rolled(0.0, 0.0), rolled(0.1, 0.05), rolled(0.2, 0.1), rolled(0.3, 0.1)});
+    CHECK(path.state_at(0.1).turn_rate_radps.x == Approx(0.5).margin(1e-3));
+    CHECK(path.state_at(0.25).turn_rate_radps.x == Approx(0.125).margin(1e-3));
+    CHECK(path.state_at(0.1).turn_rate_radps.y == Approx(0.0).margin(1e-9));
+    CHECK(Trajectory({rolled(0.0, 0.0)}).state_at(0.0).turn_rate_radps == glm::dvec3(0.0));
+}
+
 TEST_CASE("outside its times a trajectory gives the sample at that end as it is") {
     const Trajectory path({sample(1, {0, 0, 0}, {10, 0, 0}, 0), sample(2, {10, 0, 0}, {20, 0, 0}, 1)});
     CHECK(path.state_at(0.0).time_s == 1.0);

@@ -305,17 +305,17 @@ Command model_info_command() {
     auto options = std::make_shared<ModelInfoOptions>();
     return {.name = "info",
         .summary = "Shows size, axes, surface defects and materials of a mesh, and draws three views of it",
-        .options = with_output_options(
-            *options, {required(text_option("file", "FILE",
-                           "a mesh (.obj, .ply, .stl, .gltf, .glb, .ac, .wrl, .dnm, .srf, .chain) or a built-in name",
-                           options->file)),
-                          text_option("--picture", "OUT.png",
-                              "write a picture with views from the left, above and ahead; the nose points left",
-                              options->picture),
-                          text_option("--axes", "X,Y,Z|auto",
-                              "directions of the file's x, y and z axes: right, left, up, down, forward, back",
-                              options->frame.axes),
-                          value_option(settings::aircraft_scale_info, options->frame.scale)}),
+        .options = with_output_options(*options,
+            {required(text_option("file", "FILE",
+                 "a mesh (.obj, .ply, .stl, .gltf, .glb, .ac, .wrl, .dnm, .srf, .xml, .acf, .chain) or a built-in name",
+                 options->file)),
+                text_option("--picture", "OUT.png",
+                    "write a picture with views from the left, above and ahead; the nose points left",
+                    options->picture),
+                text_option("--axes", "X,Y,Z|auto",
+                    "directions of the file's x, y and z axes: right, left, up, down, forward, back",
+                    options->frame.axes),
+                value_option(settings::aircraft_scale_info, options->frame.scale)}),
         .footer = "Keys: file, length_m, span_m, height_m, scale, axes, axes_are, faces and "
                   "vertices as read,\n  shells, closed and defects as repaired, materials "
                   "(red green blue) and how often, vertex_colours,\n  pictures that lie on it, emissive_pictures, "

@@ -33,7 +33,8 @@ sim::AircraftState between(const sim::AircraftState& a, const sim::AircraftState
         .velocity_mps = glm::mix(a.velocity_mps, b.velocity_mps, share),
         .body_to_world = glm::slerp(a.body_to_world, b.body_to_world, share),
         .load_factor = glm::mix(a.load_factor, b.load_factor, share),
-        .speed_rate_mps2 = glm::mix(a.speed_rate_mps2, b.speed_rate_mps2, share)};
+        .speed_rate_mps2 = glm::mix(a.speed_rate_mps2, b.speed_rate_mps2, share),
+        .turn_rate_radps = glm::mix(a.turn_rate_radps, b.turn_rate_radps, share)};
 }
 
 /// The highest ground below the next quarter of a minute of a straight flight.
@@ -95,6 +96,7 @@ void Simulation::take_step_by_hand() {
     pilot_->step(controls_);
     sim::AircraftState state = pilot_->state();
     state.time_s = sim::time_of_step(next_step_);
+    state.turn_rate_radps = sim::turn_rate_radps(last_two_.back(), state);
     update_states(state, state.time_s);
     end_ = flight_end_of(states_);
     if (end_) {

@@ -2,6 +2,7 @@
 
 #include "sim/base/thread_pool.h"
 #include "visuals/landscape/ground.h"
+#include "visuals/planning/control_positions.h"
 #include "visuals/planning/fleet.h"
 
 #include <algorithm>
@@ -66,11 +67,13 @@ std::unique_ptr<visuals::raster::Renderer> DrawingLane::use(std::unique_ptr<visu
     return std::exchange(renderer_, std::move(renderer));
 }
 
-const scene::FramePlan& DrawingLane::plan_by(planning::Planner& planner, const PictureRequest& request) {
+const scene::FramePlan& DrawingLane::plan_by(
+    planning::Planner& planner, const PictureRequest& request, std::span<const models::ControlPositions> controls) {
     planner.forget_frames();
     planning::PlanRequest wanted{request.camera, request.states};
     wanted.size_px = request.size_px;
     wanted.previous = request.previous;
+    wanted.controls = controls;
     plan_ = &planner.plan(wanted).plan;
     renderer_->resize(request.size_px, request.samples);
     return *plan_;
@@ -85,9 +88,14 @@ const scene::FramePlan& DrawingLane::plan_alone(const PictureRequest& request) {
     for (const sim::AircraftState& state : request.states) {
         sunk_.push_back(planning::sunk(state, request.camera.eye_m, planner_.earth_radius_m()));
     }
+    // Their gear is down over that ground, too.
+    controls_.clear();
+    for (const sim::AircraftState& state : request.states) {
+        controls_.push_back(planning::control_positions(state, *scenes_.whole.ground));
+    }
     PictureRequest alone = request;
     alone.states = sunk_;
-    return plan_by(*alone_planner_, alone);
+    return plan_by(*alone_planner_, alone, controls_);
 }
 
 const scene::Picture& DrawingLane::draw() {

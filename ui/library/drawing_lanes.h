@@ -1,5 +1,6 @@
 #pragma once
 
+#include "models/part_motion.h"
 #include "sim/aircraft_state.h"
 #include "visuals/planning/frame_view.h"
 #include "visuals/planning/planner.h"
@@ -106,7 +107,9 @@ public:
     double earth_radius_m() const { return planner_.earth_radius_m(); }
 
 private:
-    const visuals::scene::FramePlan& plan_by(visuals::planning::Planner& planner, const PictureRequest& request);
+    /// `controls`: PlanRequest::controls.
+    const visuals::scene::FramePlan& plan_by(visuals::planning::Planner& planner, const PictureRequest& request,
+        std::span<const models::ControlPositions> controls = {});
 
     const DrawnScenes& scenes_;
     visuals::planning::Planner planner_;
@@ -114,6 +117,7 @@ private:
     std::unique_ptr<visuals::raster::Renderer> renderer_;
     visuals::scene::Picture picture_;
     std::vector<sim::AircraftState> sunk_; ///< states of pictures of aircraft alone
+    std::vector<models::ControlPositions> controls_; ///< of the same
     const visuals::scene::FramePlan* plan_ = nullptr;
 };
 

@@ -69,7 +69,9 @@ void read(const std::string& library, const models::meshfile::ReadOptions& optio
     } else {
         ui::reader::read_by_osg(in, mesh);
     }
-    models::meshfile::write_mesh(out, mesh.finish());
+    models::TriangleMesh read = mesh.finish();
+    if (read.colours_are_means) { read.colours.clear(); } // whoever reads the pictures makes them again
+    models::meshfile::write_mesh(out, read);
 }
 
 } // namespace

@@ -2,6 +2,7 @@
 
 #include "models/meshfile/mesh_file.h"
 #include "models/polygons/aircraft_shape.h"
+#include "sim/base/text_file.h"
 
 #include <algorithm>
 #include <array>
@@ -77,6 +78,10 @@ AircraftAxes aircraft_axes(const std::string& setting, const fs::path& file, con
     if (const auto prescribed = models::meshfile::axes_of_format(file)) {
         const auto seen = models::polygons::guess_axes(mesh);
         const bool contradicts = seen && seen->lead >= contradiction_lead && seen->axes.text() != prescribed->text();
+        // AC3D files are for whoever reads them: FlightGear's nose is towards -x, that of X-Plane's tools towards -z.
+        if (contradicts && extension_of(file) == ".ac") {
+            return {seen->axes, AxesSource::Shape, models::polygons::nose_at_other_end(seen->axes)};
+        }
         return {*prescribed, AxesSource::Format, contradicts ? std::optional(seen->axes) : std::nullopt};
     }
     const auto guessed = models::polygons::guess_axes(mesh, models::meshfile::axes_hints_of_format(file));
@@ -137,6 +142,28 @@ std::optional<std::string> size_note(const glm::dvec3& extent_m, double scale, c
     const double power = std::pow(10.0, std::floor(std::log10(factor)));
     return note + fmt::format("; no unit of length makes it one, --aircraft-scale {:.6g} makes it about {:.0f} m",
                       std::round(factor / power) * power, small_m);
+}
+
+glm::dvec3 flown_origin(const fs::path& file, const models::BoundingBox& bounds) {
+    if (models::meshfile::axes_of_format(file)) { return glm::dvec3(0.0); }
+    const glm::dvec3 extent = bounds.max_m - bounds.min_m;
+    const double margin = 0.25 * std::max({extent.x, extent.y, extent.z});
+    for (int k = 0; k < 3; ++k) {
+        if (bounds.min_m[k] > margin || bounds.max_m[k] < -margin) { return 0.5 * (bounds.min_m + bounds.max_m); }
+    }
+    return glm::dvec3(0.0);
+}
+
+std::optional<std::string> origin_note(const glm::dvec3& origin, const fs::path& file) {
+    if (origin == glm::dvec3(0.0)) { return std::nullopt; }
+    return fmt::format(
+        "{}: its origin lies outside the aircraft, which flies about its middle at {:.4g}, {:.4g}, {:.4g}",
+        file.filename().string(), origin.x, origin.y, origin.z);
+}
+
+void move_mesh(models::TriangleMesh& mesh, const glm::dvec3& origin, double factor) {
+    for (glm::dvec3& vertex_m : mesh.vertices_m) { vertex_m -= origin; }
+    scale_mesh(mesh, factor);
 }
 
 void scale_mesh(models::TriangleMesh& mesh, double factor) {

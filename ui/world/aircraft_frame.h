@@ -60,6 +60,16 @@ std::optional<std::string> size_note(const glm::dvec3& extent_m, double scale, c
 /// length, else such as "centimetres", "feet"; empty where no unit makes it an aircraft.
 std::string likely_unit(double longest);
 
+/// The point of a file about which its aircraft flies: the file's origin, but the middle of the bounding box where the
+/// origin lies outside it by more than a quarter of its longest side, in formats that prescribe nothing.
+glm::dvec3 flown_origin(const std::filesystem::path& file, const models::BoundingBox& bounds);
+
+/// Nothing where that is the file's own origin.
+std::optional<std::string> origin_note(const glm::dvec3& origin, const std::filesystem::path& file);
+
+/// Subtracts an origin from all coordinates, then multiplies them.
+void move_mesh(models::TriangleMesh& mesh, const glm::dvec3& origin, double factor);
+
 /// Multiplies all coordinates.
 void scale_mesh(models::TriangleMesh& mesh, double factor);
 

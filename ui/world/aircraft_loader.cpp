@@ -242,10 +242,15 @@ PolygonModel read_polygon_model(const fs::path& file, const AircraftFrameSetting
         {axes_note(shown, file), size_note((bounds.max_m - bounds.min_m) * frame.scale, frame.scale, file)}) {
         if (note) { context.notes.push_back(*note); }
     }
+    const glm::dvec3 origin = flown_origin(file, bounds);
+    if (const auto note = origin_note(origin, file)) { context.notes.push_back(*note); }
     if (shown.axes.text() != default_axes.text()) { model = models::polygons::read_obj(file, shown.axes, textures); }
-    if (frame.scale != 1.0) {
-        for (glm::dvec3& vertex_m : model.vertices_m) { vertex_m *= frame.scale; }
-        for (models::polygons::Pivot& pivot : model.pivots) { pivot.point_m *= frame.scale; }
+    const glm::dvec3 body_origin = shown.axes.body_from_file(origin);
+    if (frame.scale != 1.0 || origin != glm::dvec3(0.0)) {
+        for (glm::dvec3& vertex_m : model.vertices_m) { vertex_m = frame.scale * (vertex_m - body_origin); }
+        for (models::polygons::Pivot& pivot : model.pivots) {
+            pivot.point_m = frame.scale * (pivot.point_m - body_origin);
+        }
     }
     if (textures) { take_pictures(model, file, context); }
     return model;

@@ -66,6 +66,10 @@ public:
                 add_ac3d_references(file, pictures);
             } else if (ending == ".obj") {
                 add_obj_references(file);
+            } else if (ending == ".acf") {
+                add_xplane_references(file);
+            } else if (ending == ".dnm") {
+                add_ysflight_references(file);
             } else if (ending == ".mtl") {
                 add_material_references(file);
             } else if (ending == ".gltf") {
@@ -131,9 +135,30 @@ private:
     void add_obj_references(const fs::path& file) {
         TextScanner text = TextScanner::of_file(file);
         while (text.next_line()) {
+            if (text.skip("TEXTURE")) { add_picture(file, std::string(text.rest_of_line())); } // of X-Plane's objects
             if (!text.skip("mtllib")) { continue; }
             for (const std::string_view word : text.words()) { add(file.parent_path() / std::string(word)); }
             add(file.parent_path() / std::string(text.rest_of_line())); // one name with blanks
+        }
+    }
+
+    /// The objects of an X-Plane aircraft, each in a line P _obja/NUMBER/_v10_att_file_stl FILE.
+    void add_xplane_references(const fs::path& file) {
+        TextScanner text = TextScanner::of_file(file);
+        while (text.next_line()) {
+            if (text.skip("P") && text.word_or_end().ends_with("/_v10_att_file_stl")) {
+                add((file.parent_path() / "objects" / text.rest_of_line()).lexically_normal());
+            }
+        }
+    }
+
+    void add_ysflight_references(const fs::path& file) {
+        TextScanner text = TextScanner::of_file(file);
+        while (text.next_line()) {
+            if (!text.skip("FIL")) { continue; }
+            std::string name(text.rest_of_line());
+            std::erase(name, '"');
+            add(file.parent_path() / fs::path(name).filename());
         }
     }
 

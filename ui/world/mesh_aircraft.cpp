@@ -82,17 +82,28 @@ void rotate_mesh_to_body(models::TriangleMesh& mesh, const models::polygons::Fil
     for (glm::vec3& normal : mesh.normals) { normal = glm::vec3(axes.body_from_file(glm::dvec3(normal))); }
 }
 
+bool turns_by_time(const RotatingPart& part) { return part.about.turns_per_s != 0.0; }
+
 /// Adds parts that turn to the polygons that stand in for an aircraft far away: a pivot for each, in their order, and
-/// as few triangles as a part far away needs. Body axes. Returns the largest certified distance, in metres, between a
-/// part and its polygons.
+/// as few triangles as a part far away needs. Parts that only controls move stand there as at rest. Body axes. Returns
+/// the largest certified distance, in metres, between a part at rest and its polygons.
 double add_far_parts(std::span<const RotatingPart> parts, PolygonModel& polygons) {
+    models::TriangleMesh at_rest;
+    const auto turning = static_cast<std::size_t>(std::ranges::count_if(parts, &turns_by_time));
     double error_m = 0.0;
     for (const RotatingPart& part : parts) {
+        if (!turns_by_time(part)) {
+            if (models::is_shown_at_rest(part.moves)) { meshfile::join_mesh(at_rest, part.mesh, {}); }
+            continue;
+        }
         const auto number = static_cast<std::uint32_t>(polygons.parts.size());
         polygons.parts.push_back(fmt::format("turning-{}", number));
         polygons.pivots.push_back({number, part.about.point_m, part.about.direction, part.about.turns_per_s});
-        const std::size_t faces = std::max(min_far_faces, far_faces_of_parts / parts.size());
+        const std::size_t faces = std::max(min_far_faces, far_faces_of_parts / turning);
         error_m = std::max(error_m, append_far(part.mesh, faces, number, polygons));
+    }
+    if (!at_rest.triangles.empty()) {
+        error_m = std::max(error_m, append_far(at_rest, far_faces_of_parts, 0, polygons));
     }
     return error_m;
 }
@@ -104,10 +115,11 @@ refine::PackedNormal turned_normal(const refine::PackedNormal& normal, const mod
     return refine::packed(glm::vec3(axes.body_from_file(glm::dvec3(unpacked(normal)))));
 }
 
-/// In body axes, and as large as `scale` makes it.
-std::shared_ptr<const refine::ProgressiveMesh> turned(
-    const refine::ProgressiveMesh& mesh, const models::polygons::FileAxes& axes, double scale) {
+/// In body axes about an origin, and as large as `scale` makes it.
+std::shared_ptr<const refine::ProgressiveMesh> turned(const refine::ProgressiveMesh& mesh,
+    const models::polygons::FileAxes& axes, const glm::dvec3& origin, double scale) {
     refine::ProgressiveMeshData parts = mesh.full_data();
+    parts.origin_m -= origin;
     if (scale != 1.0) {
         parts.origin_m *= scale;
         for (glm::vec3& position_m : parts.positions_m) { position_m *= static_cast<float>(scale); }
@@ -164,7 +176,9 @@ models::TriangleMesh finest_mesh(const refine::ProgressiveMesh& hierarchy) {
 /// All of a model as one mesh, for its axes and its size.
 models::TriangleMesh whole_of(const meshfile::RotatingModel& model) {
     models::TriangleMesh whole = model.body;
-    for (const RotatingPart& part : model.parts) { meshfile::join_mesh(whole, part.mesh, {}); }
+    for (const RotatingPart& part : model.parts) {
+        if (models::is_shown_at_rest(part.moves)) { meshfile::join_mesh(whole, part.mesh, {}); }
+    }
     meshfile::join_mesh(whole, model.clear.mesh, {});
     return whole;
 }
@@ -213,6 +227,17 @@ void note_frame(const AircraftAxes& axes, const models::BoundingBox& bounds, dou
     }
 }
 
+void note_moving_parts(MeshAircraft& aircraft, const fs::path& file) {
+    const auto turning = std::ranges::count_if(aircraft.turning, &turns_by_time);
+    const auto moving =
+        std::ranges::count_if(aircraft.turning, [](const RotatingPart& part) { return !part.moves.empty(); });
+    if (turning > 0) { aircraft.notes.push_back(fmt::format("{}: {} parts turn in flight", file.string(), turning)); }
+    if (moving > 0) {
+        aircraft.notes.push_back(
+            fmt::format("{}: {} parts move as the motion has it: surfaces, flaps, gear", file.string(), moving));
+    }
+}
+
 MeshAircraft from_hierarchy(const fs::path& file, const AircraftFrameSettings& frame, const fs::path& cache,
     std::shared_ptr<meshfile::TextureStore> textures) {
     const Stopwatch watch;
@@ -221,26 +246,33 @@ MeshAircraft from_hierarchy(const fs::path& file, const AircraftFrameSettings& f
     const models::polygons::FileAxes& axes = input.axes.axes;
     aircraft.notes = std::move(input.mesh.notes);
     note_frame(input.axes, input.bounds, frame.scale, file, aircraft.notes);
-    aircraft.hierarchy = turned(*input.mesh.mesh, axes, frame.scale); // its nodes keep their numbers
+    const glm::dvec3 origin = flown_origin(file, input.bounds);
+    if (const auto note = origin_note(origin, file)) { aircraft.notes.push_back(*note); }
+    aircraft.hierarchy = turned(*input.mesh.mesh, axes, origin, frame.scale); // its nodes keep their numbers
     aircraft.creases = turned(input.mesh.creases, axes);
     aircraft.textures = std::move(input.mesh.textures);
     const models::TriangleMesh far = far_mesh(aircraft.hierarchy);
     aircraft.polygons_error_m = max_distance_m(finest_mesh(*aircraft.hierarchy), far);
     aircraft.polygons = models::polygons::polygons_from_mesh(far);
     for (RotatingPart& part : aircraft.turning) {
-        scale_mesh(part.mesh, frame.scale);
+        move_mesh(part.mesh, origin, frame.scale);
         rotate_mesh_to_body(part.mesh, axes);
-        part.about.point_m = frame.scale * axes.body_from_file(part.about.point_m);
+        part.about.point_m = frame.scale * axes.body_from_file(part.about.point_m - origin);
         part.about.direction = axes.body_from_file(part.about.direction);
+        for (models::PartMove& move : part.moves) {
+            move.point_m = frame.scale * axes.body_from_file(move.point_m - origin);
+            move.direction = axes.body_from_file(move.direction);
+            for (glm::dvec2& amount : move.amounts) {
+                amount.y *= move.kind == models::PartMove::Kind::Shift ? frame.scale : 1.0;
+            }
+        }
     }
-    scale_mesh(aircraft.clear.mesh, frame.scale);
+    move_mesh(aircraft.clear.mesh, origin, frame.scale);
     rotate_mesh_to_body(aircraft.clear.mesh, axes);
     // Transparent surfaces are opaque there: far away nothing is seen through them.
     aircraft.polygons_error_m = std::max({aircraft.polygons_error_m, add_far_parts(aircraft.turning, aircraft.polygons),
         append_far(aircraft.clear.mesh, far_faces_of_transparent, 0, aircraft.polygons)});
-    if (!aircraft.turning.empty()) {
-        aircraft.notes.push_back(fmt::format("{}: {} parts turn in flight", file.string(), aircraft.turning.size()));
-    }
+    note_moving_parts(aircraft, file);
     aircraft.notes.push_back(fmt::format("{}: {} triangles made ready to be refined in {:.1f} s", file.string(),
         aircraft.hierarchy->face_count(), watch.s()));
     return aircraft;
@@ -305,11 +337,12 @@ void add_meshes(planning::AircraftModel& model, const MeshAircraft& aircraft) {
     if (aircraft.hierarchy) {
         planning::add_progressive(model, aircraft.hierarchy, aircraft.polygons_error_m, aircraft.textures);
         model.creases = aircraft.creases;
-        std::vector<planning::TurningPartMesh> parts;
+        std::vector<planning::MovingPartMesh> parts;
+        std::uint32_t pivots = 0;
         for (const RotatingPart& part : aircraft.turning) {
-            parts.push_back({&part.mesh, static_cast<std::uint32_t>(parts.size())});
+            parts.push_back({&part.mesh, turns_by_time(part) ? std::optional(pivots++) : std::nullopt, part.moves});
         }
-        planning::add_turning_parts(model, parts);
+        planning::add_moving_parts(model, parts);
         if (!aircraft.clear.mesh.triangles.empty()) {
             planning::add_transparent(model, aircraft.clear.mesh, aircraft.clear.opacity);
         }

@@ -28,7 +28,8 @@ struct MeshAircraft {
     std::shared_ptr<const visuals::refine::MeshTextures> textures;
     /// Of the hierarchy, in body axes; null where it has none.
     std::shared_ptr<const visuals::refine::MeshCreases> creases;
-    /// Parts that turn, which the hierarchy leaves out; its pivots are those of the polygons.
+    /// Parts that turn or move, which the hierarchy leaves out; the pivots of those that turn are those of the
+    /// polygons.
     std::vector<models::meshfile::RotatingPart> turning;
     /// Transparent surfaces, which the hierarchy leaves out; often none.
     models::meshfile::TransparentSurfaces clear;

@@ -190,9 +190,9 @@ namespace {
 
 /// Collapses the edges of a repaired mesh. Where pictures lie on it, seams of their coordinates are kept, and the nodes
 /// get places on them; else there are no places.
-std::pair<std::shared_ptr<const refine::ProgressiveMesh>, NodePlaces> hierarchy_of(
-    models::TriangleMesh mesh, const models::simplify::SimplifyOptions& options, std::vector<std::string>& notes) {
-    const std::optional<models::simplify::AttributeSeams> charts = texture_charts(mesh, notes);
+std::pair<std::shared_ptr<const refine::ProgressiveMesh>, NodePlaces> hierarchy_of(models::TriangleMesh mesh,
+    bool is_plain, const models::simplify::SimplifyOptions& options, std::vector<std::string>& notes) {
+    const std::optional<models::simplify::AttributeSeams> charts = texture_charts(mesh, is_plain, notes);
     if (!charts) {
         return {
             std::make_shared<const refine::ProgressiveMesh>(models::simplify::fast_sequence(std::move(mesh), options)),
@@ -210,6 +210,7 @@ std::pair<std::shared_ptr<const refine::ProgressiveMesh>, NodePlaces> hierarchy_
 
 RefineMesh make_refine_mesh(const RefineMeshOptions& input, models::TriangleMesh mesh) {
     const std::vector<models::Material> materials = mesh.materials;
+    const bool is_plain = has_plain_colours(mesh);
     models::repair::RepairedMesh repaired = models::repair::repaired(std::move(mesh));
     RefineMesh result;
     result.notes = repaired.mesh.notes;
@@ -227,12 +228,12 @@ RefineMesh make_refine_mesh(const RefineMeshOptions& input, models::TriangleMesh
     options.show_progress = [&](double share) { progress.show(static_cast<int>(share * steps)); };
     const std::vector<refine::CornerNormals> normals = refine::creased_normals(repaired.mesh);
     NodePlaces places;
-    std::tie(result.mesh, places) = hierarchy_of(std::move(repaired.mesh), options, result.notes);
+    std::tie(result.mesh, places) = hierarchy_of(std::move(repaired.mesh), is_plain, options, result.notes);
     progress.finish();
     result.creases = refine::mesh_creases(*result.mesh, normals);
     if (!places.first.empty()) {
         result.chart_materials = places.chart_materials;
-        result.textures = mesh_textures(std::move(places), materials, result.mesh->node_count());
+        result.textures = mesh_textures(std::move(places), materials, is_plain, result.mesh->node_count());
     }
     return result;
 }
@@ -241,7 +242,7 @@ namespace {
 
 /// Raised whenever make_refine_mesh() gives any mesh another hierarchy, or its file another layout: what was cached
 /// before is then made anew.
-constexpr unsigned refine_mesh_cache_version = 6;
+constexpr unsigned refine_mesh_cache_version = 7;
 
 template <class Item>
 void add_list(Hash& hash, const std::vector<Item>& list) {
@@ -256,6 +257,7 @@ std::uint64_t hash_of(const models::TriangleMesh& mesh, std::uint64_t seed) {
     hash.add_word(refine_mesh_cache_version);
     add_list(hash, mesh.vertices_m);
     add_list(hash, mesh.colours);
+    hash.add_word(mesh.colours_are_means ? 1 : 0);
     add_list(hash, mesh.triangles);
     add_list(hash, mesh.normals);
     add_list(hash, mesh.corner_normals);
@@ -279,7 +281,8 @@ fs::path refine_mesh_cache_file(const fs::path& folder, const models::TriangleMe
 
 RefineMesh cached_refine_mesh(const fs::path& folder, const RefineMeshOptions& input, models::TriangleMesh mesh) {
     const fs::path file = refine_mesh_cache_file(folder, mesh);
-    const bool is_textured = has_textures(mesh);
+    const bool is_plain = has_plain_colours(mesh);
+    const bool is_textured = has_textures(mesh) || is_plain;
     const std::vector<models::Material> materials = is_textured ? mesh.materials : std::vector<models::Material>();
     const std::string key = file.stem().string();
     const CacheFile cache{.cache = "order cache",
@@ -300,7 +303,7 @@ RefineMesh cached_refine_mesh(const fs::path& folder, const RefineMeshOptions& i
             places.first = in.take_list<std::uint32_t>();
             places.places = in.take_list<refine::ChartPlace>();
             places.chart_materials = in.take_list<std::uint32_t>();
-            prepared.textures = mesh_textures(std::move(places), materials, prepared.mesh->node_count());
+            prepared.textures = mesh_textures(std::move(places), materials, is_plain, prepared.mesh->node_count());
             in.check(prepared.textures != nullptr, "places on pictures that fit the mesh");
         }
         return prepared;

@@ -50,7 +50,7 @@ struct RefineMeshOptions {
 /// A hierarchy, with notes for the user.
 struct RefineMesh {
     std::shared_ptr<const visuals::refine::ProgressiveMesh> mesh;
-    /// The pictures on it; null unless the materials of the mesh have textures.
+    /// The pictures and plain colours on it; null unless its materials have textures or several colours.
     std::shared_ptr<const visuals::refine::MeshTextures> textures;
     /// For each chart of `textures` its material in the mesh.
     std::vector<std::uint32_t> chart_materials;

@@ -22,12 +22,28 @@ bool has_textures(const models::TriangleMesh& mesh) {
            std::ranges::any_of(mesh.materials, [](const auto& one) { return one.texture.picture != nullptr; });
 }
 
-std::optional<AttributeSeams> texture_charts(const models::TriangleMesh& mesh, std::vector<std::string>& notes) {
-    if (!has_textures(mesh)) { return std::nullopt; }
+bool has_plain_colours(const models::TriangleMesh& mesh) {
+    if (!mesh.colours.empty() && !mesh.colours_are_means) { return false; }
+    const auto differs = [&](std::uint32_t material) {
+        return mesh.materials[material].colour != mesh.materials[mesh.triangle_materials[0]].colour;
+    };
+    return !mesh.materials.empty() && std::ranges::none_of(mesh.triangle_materials, [](std::uint32_t material) {
+        return material == invalid_index;
+    }) && std::ranges::any_of(mesh.triangle_materials, differs);
+}
+
+std::optional<AttributeSeams> texture_charts(
+    const models::TriangleMesh& mesh, bool is_plain, std::vector<std::string>& notes) {
+    const bool is_textured = has_textures(mesh);
+    if (!is_textured && !is_plain) { return std::nullopt; }
     models::TriangleMesh shown = mesh;
     shown.normals.clear();
     shown.corner_normals.clear();
-    for (std::size_t t = 0; t < shown.triangles.size(); ++t) {
+    if (!is_textured) {
+        shown.texture_coordinates.clear();
+        shown.corner_texture_coordinates.clear();
+    }
+    for (std::size_t t = 0; t < shown.corner_texture_coordinates.size(); ++t) {
         if (shown.materials[shown.triangle_materials[t]].texture.picture == nullptr) {
             shown.corner_texture_coordinates[t] = {invalid_index, invalid_index, invalid_index};
         }
@@ -35,9 +51,9 @@ std::optional<AttributeSeams> texture_charts(const models::TriangleMesh& mesh, s
     AttributeSeams charts(std::move(shown), {});
     constexpr std::size_t max_charts = std::numeric_limits<std::uint16_t>::max();
     if (charts.materials_of_charts().size() > max_charts) {
-        notes.push_back(
-            fmt::format("{}: its pictures lie in {} pieces, more than {}: it is drawn in the colours of its vertices",
-                mesh.name, charts.materials_of_charts().size(), max_charts));
+        notes.push_back(fmt::format(
+            "{}: its pictures and colours lie in {} pieces, more than {}: it is drawn in the colours of its vertices",
+            mesh.name, charts.materials_of_charts().size(), max_charts));
         return std::nullopt;
     }
     return charts;
@@ -80,7 +96,8 @@ std::vector<NodeChart> joined(const std::vector<NodeChart>& first, const std::ve
         const std::uint32_t chart = takes_a ? a->chart : b->chart;
         const std::array<std::uint32_t, 2> from{
             takes_a ? a->point.triangle : b->point.triangle, takes_b ? b->point.triangle : a->point.triangle};
-        all.push_back({chart, charts.near_point(at_m, from)});
+        all.push_back({chart,
+            charts.has_texture_coordinates() ? charts.near_point(at_m, from) : (takes_a ? a->point : b->point)});
         a += takes_a ? 1 : 0;
         b += takes_b ? 1 : 0;
     }
@@ -114,7 +131,7 @@ NodePlaces node_places(const refine::ProgressiveMesh& hierarchy, const Attribute
 }
 
 std::shared_ptr<const refine::MeshTextures> mesh_textures(
-    NodePlaces places, std::span<const models::Material> materials, std::size_t node_count) {
+    NodePlaces places, std::span<const models::Material> materials, bool is_plain, std::size_t node_count) {
     const bool fits = places.first.size() == node_count + 1 && places.first.front() == 0 &&
                       std::ranges::is_sorted(places.first) && places.first.back() == places.places.size() &&
                       std::ranges::all_of(places.places,
@@ -125,7 +142,10 @@ std::shared_ptr<const refine::MeshTextures> mesh_textures(
     made->places = std::move(places.places);
     for (const std::uint32_t material : places.chart_materials) {
         refine::ChartSurface& chart = made->charts.emplace_back();
-        if (material >= materials.size() || materials[material].texture.picture == nullptr) { continue; }
+        if (material >= materials.size()) { continue; }
+        chart.is_plain = is_plain && materials[material].texture.picture == nullptr;
+        if (chart.is_plain) { chart.colour = models::packed_colour(materials[material].colour); }
+        if (materials[material].texture.picture == nullptr) { continue; }
         const models::SurfaceTexture& texture = materials[material].texture;
         const auto known = std::ranges::find(made->textures, texture);
         chart.texture = static_cast<std::uint32_t>(known - made->textures.begin()) + 1;

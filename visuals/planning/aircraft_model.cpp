@@ -78,10 +78,14 @@ private:
         return has_coordinates && !mesh_.materials.empty() ? textures_[mesh_.triangle_materials[triangle]] : 0;
     }
 
-    /// Of the material alone where a picture has the colours.
+    /// Whether the material alone has the colour of a triangle, or of what its picture is multiplied by.
+    bool has_colour_of_material(std::uint32_t triangle) const {
+        return mesh_.colours.empty() || mesh_.colours_are_means || texture_of(triangle) != 0;
+    }
+
     std::uint32_t colour_of(std::uint32_t triangle, std::uint32_t vertex) const {
-        const bool has_own = !mesh_.colours.empty() && texture_of(triangle) == 0;
-        return models::packed_colour(has_own ? mesh_.colours[vertex] : models::material_colour(mesh_, triangle));
+        return models::packed_colour(
+            !has_colour_of_material(triangle) ? mesh_.colours[vertex] : models::material_colour(mesh_, triangle));
     }
 
     /// A drawn vertex that looks like this corner, made where there is none.
@@ -130,8 +134,8 @@ private:
         buffers_.vertices[vertex].polygon = triangle;
         buffers_.vertices[vertex].face_normal = models::normal_of(mesh_, mesh_.triangles[triangle], {0.0, 0.0, -1.0});
         buffers_.vertices[vertex].face_colour =
-            models::packed_colour(texture_of(triangle) == 0 ? models::mean_colour(mesh_, triangle)
-                                                            : models::material_colour(mesh_, triangle));
+            models::packed_colour(has_colour_of_material(triangle) ? models::material_colour(mesh_, triangle)
+                                                                   : models::mean_colour(mesh_, triangle));
     }
 
     scene::ModelBuffers& buffers_;
@@ -434,21 +438,73 @@ void add_progressive(AircraftModel& model, std::shared_ptr<const refine::Progres
     model.buffers.has_depth_drawn_meshes = true;
 }
 
-void add_turning_parts(AircraftModel& model, std::span<const TurningPartMesh> parts) {
+namespace {
+
+/// A part at rest, and where each control alone and all of them together put it at the ends of their positions.
+std::vector<glm::dmat4> extremes_of(const models::PartMoves& moves) {
+    std::vector<glm::dmat4> placements{glm::dmat4(1.0)};
+    models::ControlPositions least{};
+    models::ControlPositions most{};
+    for (const models::PartMove& move : moves) {
+        const auto control = static_cast<std::size_t>(move.control);
+        least[control] = models::least_position(move.control);
+        most[control] = 1.0;
+        for (const double position : {least[control], most[control]}) {
+            models::ControlPositions alone{};
+            alone[control] = position;
+            placements.push_back(models::placement_by(moves, alone));
+        }
+    }
+    placements.push_back(models::placement_by(moves, least));
+    placements.push_back(models::placement_by(moves, most));
+    return placements;
+}
+
+AxisAlignedBox bounds_of_part(std::span<const scene::ModelVertex> vertices, const models::polygons::Pivot* pivot) {
+    AxisAlignedBox bounds{
+        glm::dvec3(std::numeric_limits<double>::max()), glm::dvec3(std::numeric_limits<double>::lowest())};
+    for (const scene::ModelVertex& vertex : vertices) {
+        const glm::dvec3 place_m(vertex.position_m);
+        const AxisAlignedBox reached =
+            pivot == nullptr ? AxisAlignedBox{place_m, place_m} : rotation_bounds(*pivot, place_m);
+        bounds.min_m = glm::min(bounds.min_m, reached.min_m);
+        bounds.max_m = glm::max(bounds.max_m, reached.max_m);
+    }
+    return bounds;
+}
+
+} // namespace
+
+void add_moving_parts(AircraftModel& model, std::span<const MovingPartMesh> parts) {
     assert(model.progressive != nullptr && model.turning.index_count == 0);
     model.turning.first_index = static_cast<std::uint32_t>(model.buffers.indices.size());
-    for (const TurningPartMesh& part : parts) {
-        const models::polygons::Pivot& pivot = model.polygons.pivots[part.pivot];
+    std::size_t next = model.polygons.pivots.size();
+    for (const MovingPartMesh& part : parts) {
+        const std::size_t number = part.pivot ? *part.pivot : next++;
         const std::size_t first = model.buffers.vertices.size();
         const MeshLevel level = append_level(model.buffers, {part.mesh, 0.0});
         model.turning.index_count += level.range.index_count;
         model.turning.polygons += level.range.polygons;
-        for (scene::ModelVertex& vertex : std::span(model.buffers.vertices).subspan(first)) {
-            vertex.part = part.pivot + 1;
+        const auto vertices = std::span(model.buffers.vertices).subspan(first);
+        const models::polygons::Pivot* pivot = part.pivot ? &model.polygons.pivots[*part.pivot] : nullptr;
+        for (scene::ModelVertex& vertex : vertices) {
+            vertex.part = static_cast<std::uint32_t>(number + 1);
             vertex.polygon = 0;
-            const AxisAlignedBox circle = rotation_bounds(pivot, glm::dvec3(vertex.position_m));
-            include(model, circle.min_m);
-            include(model, circle.max_m);
+            const AxisAlignedBox reached = bounds_of_part({&vertex, 1}, pivot);
+            include(model, reached.min_m);
+            include(model, reached.max_m);
+        }
+        if (part.moves.empty()) { continue; }
+        model.moves.resize(std::max(model.moves.size(), number + 1));
+        model.moves[number] = part.moves;
+        const AxisAlignedBox bounds = bounds_of_part(vertices, pivot);
+        for (const glm::dmat4& placement : extremes_of(part.moves)) {
+            for (int corner = 0; corner < 8; ++corner) {
+                const auto side = [&](int axis) {
+                    return ((corner >> axis) & 1) == 0 ? bounds.min_m[axis] : bounds.max_m[axis];
+                };
+                include(model, glm::dvec3(placement * glm::dvec4(side(0), side(1), side(2), 1.0)));
+            }
         }
     }
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "models/part_motion.h"
 #include "models/polygons/polygon_model.h"
 #include "models/triangle_mesh.h"
 #include "sim/aircraft_state.h"
@@ -13,9 +14,11 @@
 #include "visuals/scene/frame_plan.h"
 #include "visuals/shading/shaded_polygons.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -90,6 +93,12 @@ struct AircraftModel {
     float opacity = 1.0F;
     /// Of the progressive mesh; null where each vertex has one normal.
     std::shared_ptr<const refine::MeshCreases> creases = {};
+    /// How controls move the parts of the turning triangles: first those of the pivots, then further parts; those at
+    /// the end that nothing moves are missing. Body axes.
+    std::vector<models::PartMoves> moves = {};
+
+    /// The number of matrices that place the model: of the body, the pivots and the further parts.
+    std::size_t part_count() const { return 1 + std::max(polygons.pivots.size(), moves.size()); }
 
     /// The number of indices of a polygon.
     std::uint32_t index_count_of(std::uint32_t polygon) const {
@@ -122,16 +131,17 @@ void add_levels(AircraftModel& model, std::span<const MeshSource> sources, doubl
 void add_progressive(AircraftModel& model, std::shared_ptr<const refine::ProgressiveMesh> mesh, double polygons_error_m,
     std::shared_ptr<const refine::MeshTextures> textures = {});
 
-/// A part of a mesh aircraft that turns by a pivot of its polygons.
-struct TurningPartMesh {
-    /// The part at time 0, in body axes.
+/// A part of a mesh aircraft that turns by a pivot of its polygons, or that its controls move, or both.
+struct MovingPartMesh {
+    /// The part at time 0 and at rest, in body axes.
     const models::TriangleMesh* mesh = nullptr;
-    /// Index into PolygonModel::pivots.
-    std::uint32_t pivot = 0;
+    /// Index into PolygonModel::pivots; nothing for a part that does not turn by time.
+    std::optional<std::uint32_t> pivot;
+    models::PartMoves moves = {};
 };
 
-/// Adds turning parts to a model with a progressive mesh. Loading work.
-void add_turning_parts(AircraftModel& model, std::span<const TurningPartMesh> parts);
+/// Adds moving parts to a model with a progressive mesh. Loading work.
+void add_moving_parts(AircraftModel& model, std::span<const MovingPartMesh> parts);
 
 /// Adds transparent surfaces, in body axes, to a model with a progressive mesh. Loading work.
 void add_transparent(AircraftModel& model, const models::TriangleMesh& mesh, float opacity);

@@ -2,6 +2,7 @@
 
 #include "visuals/draworder/octant_order.h"
 #include "visuals/planning/aircraft_model.h"
+#include "visuals/planning/control_positions.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -49,12 +50,13 @@ scene::PolygonTints model_tints(const PlacedAircraft& aircraft, scene::ModelDisp
 
 /// Writes the matrices of the parts of an aircraft, drawn as a model, in a state, with the eye subtracted.
 void place_all_parts(const PlacedAircraft& aircraft, const AircraftModel& model, const sim::AircraftState& state,
-    std::span<const ArticulatedPart> articulated_parts, const glm::dvec3& eye_m, std::span<glm::dmat4> parts) {
+    const Fleet::PartPositions& positions, const glm::dvec3& eye_m, std::span<glm::dmat4> parts) {
     const models::polygons::PolygonModel& polygons = model.polygons;
-    place_parts(polygons, body_to_eye_world(state, eye_m), state.time_s, parts);
+    place_parts(polygons, body_to_eye_world(state, eye_m), state.time_s, parts.first(polygons.pivots.size() + 1));
+    if (!model.moves.empty()) { move_parts(model, positions.controls, parts); }
     const models::polygons::PolygonModel& numbered =
         aircraft.far_model == nullptr ? polygons : aircraft.near_model->polygons;
-    for (const ArticulatedPart& part : articulated_parts) {
+    for (const ArticulatedPart& part : positions.articulated_parts) {
         if (part.aircraft == aircraft.number) { place_articulated_part(polygons, numbered, part, parts); }
     }
 }
@@ -96,15 +98,15 @@ void Fleet::add(std::uint32_t model) {
     aircraft.near_model = aircraft.model;
     aircraft.near_index = model;
     aircraft.first_part = static_cast<std::uint32_t>(parts_.size());
-    std::size_t pivots = aircraft.model->polygons.pivots.size();
+    std::size_t parts = aircraft.model->part_count();
     const auto far = std::ranges::find(scene_.far_models, model, &FarModel::model);
     if (far != scene_.far_models.end()) {
         aircraft.far_model = scene_.models[far->far_model].get();
         aircraft.far_index = far->far_model;
         aircraft.far_error_m = far->error_m;
-        pivots = std::max(pivots, aircraft.far_model->polygons.pivots.size());
+        parts = std::max(parts, aircraft.far_model->part_count());
     }
-    parts_.resize(parts_.size() + pivots + 1);
+    parts_.resize(parts_.size() + parts);
 }
 
 void Fleet::place(
@@ -115,13 +117,15 @@ void Fleet::place(
         placed_[i].is_absent = !state.is_present;
         // Far below the eye an absent aircraft has no shadow, no effects and no part in the painting order of others.
         if (!state.is_present) { state.position_m = eye_m - glm::dvec3(0.0, 0.0, absent_depth_m); }
-        place(placed_[i], state, request.articulated_parts, view);
+        const models::ControlPositions controls =
+            request.controls.empty() ? controls_of(placed_[i], request.states[i]) : request.controls[i];
+        place(placed_[i], state, {controls, request.articulated_parts}, view);
         bounding_boxes_[i] = bounding_box_of(placed_[i], state, effect_bounds[i], view);
     }
     if (placed_.size() > request.states.size()) {
         sim::AircraftState around_eye = request.states.front();
         around_eye.position_m = eye_m;
-        place(placed_.back(), around_eye, request.articulated_parts, view);
+        place(placed_.back(), around_eye, {{}, request.articulated_parts}, view);
     }
 }
 
@@ -136,10 +140,15 @@ void Fleet::place_before(const FrameView& view, const PreviousFrame& before, std
         sim::AircraftState state = sunk(before.states[number], eye_m, view.earth_radius_m);
         if (is_cockpit) { state.position_m = eye_m; }
         placed_parts.resize(aircraft.parts.size());
-        place_all_parts(aircraft, *aircraft.model, state, before.articulated_parts, eye_m, placed_parts);
+        const PartPositions positions{controls_of(aircraft, before.states[number]), before.articulated_parts};
+        place_all_parts(aircraft, *aircraft.model, state, positions, eye_m, placed_parts);
         std::ranges::transform(
             placed_parts, parts.begin() + aircraft.first_part, [](const glm::dmat4& part) { return glm::mat4(part); });
     }
+}
+
+models::ControlPositions Fleet::controls_of(const PlacedAircraft& aircraft, const sim::AircraftState& state) const {
+    return aircraft.near_model->moves.empty() ? models::ControlPositions{} : control_positions(state, *scene_.ground);
 }
 
 OrientedBox Fleet::bounding_box_of(const PlacedAircraft& aircraft, const sim::AircraftState& state,
@@ -154,19 +163,19 @@ OrientedBox Fleet::bounding_box_of(const PlacedAircraft& aircraft, const sim::Ai
     return placed_box(extent, position_m, state.body_to_world, margin_m);
 }
 
-void Fleet::place(PlacedAircraft& aircraft, const sim::AircraftState& state,
-    std::span<const ArticulatedPart> articulated_parts, const FrameView& view) {
+void Fleet::place(
+    PlacedAircraft& aircraft, const sim::AircraftState& state, const PartPositions& positions, const FrameView& view) {
     const glm::dvec3& eye_m = view.camera.eye_m;
     choose_model(aircraft, glm::length(state.position_m - eye_m), view);
     const AircraftModel& model = *aircraft.model;
-    const auto parts = std::span(parts_).subspan(aircraft.first_part, model.polygons.pivots.size() + 1);
+    const auto parts = std::span(parts_).subspan(aircraft.first_part, model.part_count());
     aircraft.parts = parts;
-    place_all_parts(aircraft, model, state, articulated_parts, eye_m, parts);
+    place_all_parts(aircraft, model, state, positions, eye_m, parts);
     aircraft.far_parts = {};
     if (aircraft.far_model != nullptr && !is_far(aircraft)) {
         std::vector<glm::dmat4>& far_parts = far_parts_[aircraft.number];
-        far_parts.resize(aircraft.far_model->polygons.pivots.size() + 1);
-        place_all_parts(aircraft, *aircraft.far_model, state, articulated_parts, eye_m, far_parts);
+        far_parts.resize(aircraft.far_model->part_count());
+        place_all_parts(aircraft, *aircraft.far_model, state, positions, eye_m, far_parts);
         aircraft.far_parts = far_parts;
     }
     const glm::dvec3 eye_in_body_m = draworder::eye_in_body(eye_m, state.position_m, state.body_to_world);

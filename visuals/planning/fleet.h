@@ -32,6 +32,15 @@ public:
     /// The scene and the settings must outlive it.
     Fleet(const Scene& scene, const scene::Settings& settings);
 
+    /// How the parts of an aircraft stand.
+    struct PartPositions {
+        models::ControlPositions controls{};
+        std::span<const ArticulatedPart> articulated_parts;
+    };
+
+    /// Where the controls of an aircraft in that state stand over the scene's ground; at rest where they move nothing.
+    models::ControlPositions controls_of(const PlacedAircraft& aircraft, const sim::AircraftState& state) const;
+
     /// Writes placed(), bounding_boxes() and parts() for a frame. `effect_bounds`: for each of Scene::aircraft the
     /// bounds of its effects, in body axes, which its bounding box encloses, too.
     void place(const FrameView& view, const PlanRequest& request,
@@ -81,8 +90,8 @@ private:
     };
 
     void add(std::uint32_t model);
-    void place(PlacedAircraft& aircraft, const sim::AircraftState& state,
-        std::span<const ArticulatedPart> articulated_parts, const FrameView& view);
+    void place(PlacedAircraft& aircraft, const sim::AircraftState& state, const PartPositions& positions,
+        const FrameView& view);
     void choose_model(PlacedAircraft& aircraft, double distance_m, const FrameView& view);
     void choose_representation(PlacedAircraft& aircraft, const FrameView& view);
     void choose_ranges(PlacedAircraft& aircraft, const glm::dvec3& eye_in_body_m);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "models/part_motion.h"
 #include "sim/aircraft_state.h"
 #include "visuals/landscape/ground_mesher.h"
 #include "visuals/planning/bounding_box.h"
@@ -55,6 +56,8 @@ struct PlanRequest {
     SmoothTarget smooth = {};
     /// Lines written into the upper left corner of the picture.
     std::span<const std::string> overlay_lines = {};
+    /// How the controls of Scene::aircraft stand; empty = by control_positions() over the scene's ground.
+    std::span<const models::ControlPositions> controls = {};
     /// Parts that a host program turns.
     std::span<const ArticulatedPart> articulated_parts = {};
     /// The size of the picture; nothing = that of the settings.

@@ -89,7 +89,7 @@ IdPlan::IdPlan(const Scene& scene) {
     std::uint32_t first = 0;
     const auto add = [&](const AircraftModel& model) {
         throw_if_refined(model);
-        const std::size_t parts = model.polygons.pivots.size() + 1;
+        const std::size_t parts = model.part_count();
         model_of_part_.insert(model_of_part_.end(), parts, static_cast<std::uint32_t>(models_.size()));
         models_.push_back(numbered(model, first));
         first += number_count(model);

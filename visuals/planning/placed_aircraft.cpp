@@ -82,6 +82,17 @@ void place_parts(const models::polygons::PolygonModel& model, const glm::dmat4& 
     }
 }
 
+void move_parts(const AircraftModel& model, const models::ControlPositions& positions, std::span<glm::dmat4> parts) {
+    assert(parts.size() == model.part_count());
+    const glm::dmat4 to_body = glm::inverse(parts[0]);
+    for (std::size_t i = 0; i < model.moves.size(); ++i) {
+        if (model.moves[i].empty()) { continue; }
+        const glm::dmat4 moved = parts[0] * models::placement_by(model.moves[i], positions);
+        const bool turns = i < model.polygons.pivots.size();
+        parts[i + 1] = turns ? moved * (to_body * parts[i + 1]) : moved;
+    }
+}
+
 void place_articulated_part(const models::polygons::PolygonModel& model, const models::polygons::PolygonModel& numbered,
     const ArticulatedPart& part, std::span<glm::dmat4> parts) {
     const std::size_t pivot = pivot_in(model, numbered, part.pivot);

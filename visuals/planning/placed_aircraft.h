@@ -87,6 +87,10 @@ scene::AircraftDraw draw_of(const PlacedAircraft& aircraft, std::uint32_t first_
 void place_parts(const models::polygons::PolygonModel& model, const glm::dmat4& body_to_eye_world, double time_s,
     std::span<glm::dmat4> parts);
 
+/// Moves parts as the controls stand. `parts`: AircraftModel::part_count() matrices, the first ones those of
+/// place_parts().
+void move_parts(const AircraftModel& model, const models::ControlPositions& positions, std::span<glm::dmat4> parts);
+
 /// Turns and moves a part as a host program says; does nothing where the model has no such pivot. `part.pivot` is an
 /// index into the pivots of `numbered`; in `model`, which may be its far model, the pivot of the same name turns.
 /// `parts`: the result of place_parts().

@@ -91,8 +91,8 @@ scene::ModelVertex RefinedAircraft::drawn(std::uint32_t slot) const {
 void RefinedAircraft::put_on_texture(scene::ModelVertex& vertex, std::uint32_t slot, std::uint32_t number) const {
     const refine::ChartSurface& chart = textures_->charts[number];
     vertex.texture = chart.texture;
+    if (chart.texture != 0 || chart.is_plain) { vertex.colour = chart.colour; }
     if (chart.texture == 0) { return; }
-    vertex.colour = chart.colour;
     vertex.on_texture = refiner_.place_on_picture(slot, number);
 }
 

@@ -21,12 +21,15 @@ struct ChartPlace {
 struct ChartSurface {
     /// 0 = no picture: the colours of the nodes; k = MeshTextures::textures[k - 1].
     std::uint32_t texture = 0;
-    std::uint32_t colour = 0xffffffffU; ///< that the picture is multiplied by, as ColourVertex::colour
+    /// Without a picture: `colour` stands in place of the colours of the nodes.
+    bool is_plain = false;
+    std::uint32_t colour =
+        0xffffffffU; ///< of a plain chart, or what the picture is multiplied by, as ColourVertex::colour
 };
 
-/// The pictures on a hierarchy. Seams of texture coordinates divide its surface into charts; the faces of a chart have
-/// its number as their material (ProgressiveMeshData::face_materials), and a node lies on the pictures of all charts
-/// that its leaves touch.
+/// The pictures on a hierarchy, and the colours that end at edges. Seams of texture coordinates, and edges of
+/// materials, divide its surface into charts; the faces of a chart have its number as their material
+/// (ProgressiveMeshData::face_materials), and a node lies on the pictures of all charts that its leaves touch.
 struct MeshTextures {
     std::vector<std::uint32_t> first; ///< for each node the first of its `places`, and the end of the last one's
     std::vector<ChartPlace> places;   ///< of a node by ascending charts

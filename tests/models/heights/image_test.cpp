@@ -97,9 +97,18 @@ TEST_CASE("textures of FlightGear's models are read: SGI and TGA with alpha") {
     }
 }
 
-TEST_CASE("what is no image of 8 bits is refused in one line") {
+TEST_CASE("a PNG image of 16 bits a part is read as one of 8, rounded") {
     const auto deep = scratch_file("deep.png");
-    write_raster(deep, "PNG", {.columns = 1, .rows = 1, .values = {300}, .type = GDT_UInt16});
+    write_raster(deep, "PNG", {.columns = 3, .rows = 1, .values = {300, 32768, 65535}, .type = GDT_UInt16});
+    const Image image = read_image(deep);
+    CHECK(colour(image, 0, 0) == Colour{1, 1, 1, 255});
+    CHECK(colour(image, 1, 0) == Colour{128, 128, 128, 255});
+    CHECK(colour(image, 2, 0) == Colour{255, 255, 255, 255});
+}
+
+TEST_CASE("what is no image of 8 bits is refused in one line") {
+    const auto deep = scratch_file("deep.tif"); // of which nobody says how bright 300 is
+    write_raster(deep, "GTiff", {.columns = 1, .rows = 1, .values = {300}, .type = GDT_UInt16});
     CHECK_THROWS_WITH(read_image(deep), deep.string() + ": expected 8 bits a colour part (Byte), got UInt16");
     const auto text = scratch_file("words.png");
     std::ofstream(text) << "no picture at all\n";

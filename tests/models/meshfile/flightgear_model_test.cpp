@@ -1,11 +1,15 @@
 #include "models/meshfile/flightgear_xml.h"
 #include "models/meshfile/mesh_file.h"
+#include "models/part_motion.h"
+#include "sim/base/units.h"
 #include "tests/models/meshfile/mesh_samples.h"
 
 #include <catch2/catch.hpp>
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
 
+#include <cmath>
 #include <string>
 #include <utility>
 
@@ -146,7 +150,9 @@ TEST_CASE("what animations move stands where it is at rest: landing gear up") {
                                   "</model>" +
                                       animations + "</PropertyList>"));
         REQUIRE(mesh.vertices_m.size() == 8);
-        CHECK(mesh.notes.size() == 1); // of what is left at rest
+        // What is left at rest is told: not the gear, which moves in flight.
+        CHECK(mesh.notes.size() ==
+              (animations.find("offset-m") != animations.npos || animations.find("canopy") != animations.npos ? 1 : 0));
         return std::pair(mesh.vertices_m[2], mesh.vertices_m[6]);
     };
     const auto is_at = [](const glm::dvec3& place_m, double x_m, double z_m) {
@@ -339,6 +345,46 @@ TEST_CASE("an AC3D aircraft alone shows its blades, not what stands for discs, l
     CHECK(objects_left("Fastprop", "Slowprop") == 1);
     CHECK(objects_left("Rotor-Disc_M-Pale", "shadow") == 2); // there is nothing else
     CHECK(objects_left("noshadow.glass", "disk") == 2);
+}
+
+TEST_CASE(
+    "control surfaces and gear of FlightGear models move by their properties, with the sub-models that they hold") {
+    file_with("flap.ac", ac3d_square("0x0", "flap"));
+    file_with("wheel.xml", "<PropertyList><path>flap.ac</path></PropertyList>");
+    const std::string axis = "<axis><x>0</x><y>1</y><z>0</z></axis>";
+    const auto file = file_with("surfaces.xml",
+        "<PropertyList><path>flap.ac</path><offsets><z-m>3</z-m></offsets>"
+        "<model><name>gear</name><path>wheel.xml</path></model><model><path>wheel.xml</path></model>"
+        "<animation><type>rotate</type><object-name>flap</object-name>"
+        "<property>surface-positions/right-aileron-pos-norm</property><factor>-10</factor>" +
+            axis +
+            "</animation>"
+            "<animation><type>translate</type><object-name>gear</object-name><property>gear/gear[1]/position-norm</"
+            "property>"
+            "<interpolation><entry><ind>0</ind><dep>0.5</dep></entry><entry><ind>0.5</ind><dep>0.5</dep></entry>"
+            "<entry><ind>1</ind><dep>-1.5</dep></entry></interpolation><axis><x>0</x><y>0</y><z>1</z></axis></"
+            "animation>"
+            "<animation><type>select</type><object-name>gear</object-name><condition><greater-than><property>"
+            "gear/gear[1]/position-norm</property><value>0.2</value></greater-than></condition></animation></"
+            "PropertyList>");
+    const RotatingModel model = read_rotating_model(file, {});
+    CHECK(model.body.triangles.size() == 2); // the second wheel
+    REQUIRE(model.parts.size() == 2);
+    const auto at = [](const RotatingPart& part, FlightControl control, double position, const glm::dvec3& point_m) {
+        ControlPositions positions{};
+        positions[static_cast<std::size_t>(control)] = position;
+        return glm::dvec3(placement_by(part.moves, positions) * glm::dvec4(point_m, 1.0));
+    };
+    // The right aileron's value is the left one's with the other sign: 10 degrees about +y at z = 3.
+    const glm::dvec3 down = at(model.parts[0], FlightControl::Roll, 1.0, {1.0, 0.0, 3.0});
+    CHECK(down.z == Approx(3.0 - std::sin(octant::rad_from_deg(10.0))));
+    CHECK(at(model.parts[0], FlightControl::Gear, 1.0, {1.0, 0.0, 3.0}) == glm::dvec3(1.0, 0.0, 3.0));
+    const RotatingPart& gear = model.parts[1];
+    CHECK_FALSE(is_shown_at_rest(gear.moves));
+    CHECK(at(gear, FlightControl::Gear, 0.0, {1.0, 0.0, 0.0}).x == 0.0);
+    CHECK(at(gear, FlightControl::Gear, 1.0, {1.0, 0.0, 0.0}) == glm::dvec3(1.0, 0.0, -2.0));
+    CHECK(bounds_of(gear.mesh).max_m.z == Approx(4.5)); // with the offset, where it rests
+    CHECK(read_mesh(file).triangles.size() == 4);       // the gear is up
 }
 
 TEST_CASE("a sub-model turns as the model that holds it says by its name") {

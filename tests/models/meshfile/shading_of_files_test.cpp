@@ -3,13 +3,17 @@
 
 #include <catch2/catch.hpp>
 #include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
+#include <map>
 #include <set>
 #include <string>
 #include <tuple>
+#include <vector>
 
 using namespace octant::models;
 using namespace octant::models::meshfile;
@@ -31,6 +35,76 @@ std::pair<std::size_t, std::size_t> flat_corners(const TriangleMesh& mesh) {
     return {flat, 3 * mesh.corner_normals.size()};
 }
 
+/// The squares of a box of so many squares a side, their corners numbered from 0, and their normals. Squares of
+/// different sides share the vertices of edges.
+struct SquaredBox {
+    std::vector<glm::ivec3> vertices;
+    std::vector<std::array<std::size_t, 4>> squares;
+    std::vector<glm::ivec3> normals; ///< of the squares
+};
+
+SquaredBox squared_box(int count) {
+    SquaredBox box;
+    std::map<std::tuple<int, int, int>, std::size_t> known;
+    for (int side = 0; side < 6; ++side) {
+        const int axis = side / 2;
+        const bool far = side % 2 == 1;
+        for (int i = 0; i < count * count; ++i) {
+            const std::array<std::array<int, 2>, 4> round{{{0, 0}, {1, 0}, {1, 1}, {0, 1}}};
+            std::array<std::size_t, 4>& square = box.squares.emplace_back();
+            for (std::size_t k = 0; k < 4; ++k) {
+                glm::ivec3 at(0);
+                at[axis] = far ? count : 0;
+                at[(axis + 1) % 3] = i % count + round.at(k)[0];
+                at[(axis + 2) % 3] = i / count + round.at(k)[1];
+                const auto [place, is_new] = known.try_emplace({at.x, at.y, at.z}, box.vertices.size());
+                if (is_new) { box.vertices.push_back(at); }
+                square.at(far ? k : 3 - k) = place->second;
+            }
+            box.normals.emplace_back(0);
+            box.normals.back()[axis] = far ? 1 : -1;
+        }
+    }
+    return box;
+}
+
+std::string ac3d_box(const std::string& surface_flags, const std::string& crease) {
+    const SquaredBox box = squared_box(8);
+    std::string text = "AC3Db\nMATERIAL \"grey\" rgb 0.7 0.7 0.7 amb 0.2 0.2 0.2 emis 0 0 0 spec 0 0 0 shi 0 trans 0\n"
+                       "OBJECT world\nkids 1\nOBJECT poly\n" +
+                       crease + "numvert " + std::to_string(box.vertices.size()) + "\n";
+    for (const glm::ivec3& at : box.vertices) {
+        text += std::to_string(at.x) + " " + std::to_string(at.y) + " " + std::to_string(at.z) + "\n";
+    }
+    text += "numsurf " + std::to_string(box.squares.size()) + "\n";
+    for (const auto& square : box.squares) {
+        text += "SURF " + surface_flags + "\nmat 0\nrefs 4\n";
+        for (const std::size_t corner : square) { text += std::to_string(corner) + " 0 0\n"; }
+    }
+    return text + "kids 0\n";
+}
+
+std::string obj_box(bool has_normals) {
+    const SquaredBox box = squared_box(20);
+    std::string text;
+    for (const glm::ivec3& at : box.vertices) {
+        text += "v " + std::to_string(at.x) + " " + std::to_string(at.y) + " " + std::to_string(at.z) + "\n";
+    }
+    for (std::size_t i = 0; i < box.squares.size(); ++i) {
+        const glm::ivec3& n = box.normals[i];
+        const std::string normal = std::to_string(i + 1);
+        if (has_normals) {
+            text += "vn " + std::to_string(n.x) + " " + std::to_string(n.y) + " " + std::to_string(n.z) + "\n";
+        }
+        text += "f";
+        for (const std::size_t corner : box.squares[i]) {
+            text += " " + std::to_string(corner + 1) + (has_normals ? "//" + normal : "");
+        }
+        text += "\n";
+    }
+    return text;
+}
+
 /// Two squares that meet at a right angle along z.
 const std::string bent_obj = "v 0 0 0\nv 1 0 0\nv 1 0 1\nv 0 0 1\nv 1 -1 0\nv 1 -1 1\n";
 const std::string bent_faces = "f 1 4 3 2\nf 2 3 6 5\n";
@@ -38,22 +112,22 @@ const std::string bent_faces = "f 1 4 3 2\nf 2 3 6 5\n";
 } // namespace
 
 TEST_CASE("flat surfaces of AC3D keep the normals of their polygons, smooth ones bend up to the crease angle") {
-    const auto [flat, all] = flat_corners(read_mesh(shading_samples / "flat.ac"));
+    const auto [flat, all] = flat_corners(read_mesh(file_with("box.ac", ac3d_box("0x0", ""))));
     CHECK(all > 1000);
     CHECK(flat == all);
-    const auto [by_45, all_by_45] = flat_corners(read_mesh(shading_samples / "smooth45.ac"));
+    const auto [by_45, all_by_45] = flat_corners(read_mesh(file_with("box.ac", ac3d_box("0x10", "crease 45\n"))));
     CHECK(by_45 == all_by_45); // boxes bend by 90 degrees
-    const auto [by_default, all_by_default] = flat_corners(read_mesh(shading_samples / "smooth.ac"));
+    const auto [by_default, all_by_default] = flat_corners(read_mesh(file_with("box.ac", ac3d_box("0x10", ""))));
     CHECK(by_default == all_by_default);
-    const auto [by_180, all_by_180] = flat_corners(read_mesh(shading_samples / "smooth180.ac"));
+    const auto [by_180, all_by_180] = flat_corners(read_mesh(file_with("box.ac", ac3d_box("0x10", "crease 180\n"))));
     CHECK(by_180 < all_by_180);
 }
 
 TEST_CASE("normals of OBJ files are theirs, without any there are none") {
-    const auto [flat, all] = flat_corners(read_mesh(shading_samples / "ovn.obj"));
+    const auto [flat, all] = flat_corners(read_mesh(file_with("box.obj", obj_box(true))));
     CHECK(all > 10'000);
     CHECK(flat == all);
-    CHECK(read_mesh(shading_samples / "onone.obj").corner_normals.empty());
+    CHECK(read_mesh(file_with("box.obj", obj_box(false))).corner_normals.empty());
 }
 
 TEST_CASE("smoothing groups of OBJ files tell flat from smooth polygons") {

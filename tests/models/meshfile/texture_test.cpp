@@ -137,7 +137,11 @@ TEST_CASE("DDS pictures are read from their blocks, and refused in one line wher
     CHECK(texel(dds_level("blocks", dds("DXT5", alpha + block)), 1, 0) == Bytes{0, 0, 255, 255});
     CHECK_THROWS_WITH(dds_level("cut.dds", dds("DXT5", block)), "cut.dds: expected 16 bytes of pixels, got 8");
     CHECK_THROWS_WITH(
-        dds_level("new.dds", dds("BC7 ", block)), Catch::StartsWith("new.dds: expected a DDS picture of BC1 to BC4"));
+        dds_level("new.dds", dds("BC7 ", block)), Catch::StartsWith("new.dds: expected a DDS picture of BC1 to BC5"));
+    // Of BC5, red and green: ends of 200 and 100 by the first number, then by the second.
+    const std::string ramp = std::string("\xc8\x64\x08", 3) + std::string(5, '\0');
+    CHECK(texel(dds_level("blocks", dds("ATI2", ramp + ramp)), 0, 0) == Bytes{200, 200, 0, 255});
+    CHECK(texel(dds_level("blocks", dds("BC5U", ramp + ramp)), 1, 0) == Bytes{100, 100, 0, 255});
     // FlightGear's begin with their lowest row.
     const auto file = file_with("turned.dds", dds("DXT1", block));
     TextureStore store;

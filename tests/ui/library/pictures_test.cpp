@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <cstdio>
 #include <fstream>
 #include <limits>
 #include <numeric>
@@ -398,4 +399,54 @@ TEST_CASE("attitudes turn body axes into world axes, and those of other cameras"
     }
     const Quaternion down = look_at({0.0, 0.0, 100.0}, {0.0, 0.0, 0.0});
     CHECK(is_near(turned(down, {0.0, 0.0, -1.0}), {0.0, 1.0, 0.0})); // north is up
+}
+
+namespace {
+
+/// A picture of 8 x 8 texels in red and green columns, as an uncompressed TGA file.
+std::string striped_tga() {
+    std::string bytes("\0\0\2\0\0\0\0\0\0\0\0\0\x08\0\x08\0\x18\0", 18);
+    for (int texel = 0; texel < 64; ++texel) {
+        bytes += texel % 2 == 0 ? std::string("\x10\x10\xe0", 3) : std::string("\x10\xe0\x10", 3);
+    }
+    return bytes;
+}
+
+} // namespace
+
+TEST_CASE("aircraft have the pictures that their files name, at the place of each texel") {
+    const std::string name = "striped-" + std::to_string(getpid());
+    std::ofstream(name + ".tga", std::ios::binary) << striped_tga();
+    std::ofstream(name + ".mtl") << "newmtl skin\nKd 1 1 1\nmap_Kd " << name << ".tga\n";
+    std::ofstream(name + ".obj") << "mtllib " << name << ".mtl\nusemtl skin\nv -8 0 -8\nv 8 0 -8\nv 8 0 8\nv -8 0 8\n"
+                                 << "v 0 -1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nf 4/4 3/3 2/2 1/1\n"
+                                 << "f 1/1 2/2 5/3\nf 2/1 3/2 5/3\nf 3/1 4/2 5/3\nf 4/1 1/2 5/3\n";
+    const auto counts = [&](const std::string& textures) { // of red, of green and of other pixels
+        const World world({.terrain = "none",
+            .aircraft = {name + ".obj"},
+            .settings = {{"axes", "right,up,back"}, {"textures", textures}, {"shading", "flat"}}});
+        State state;
+        state.position_m = {0.0, 0.0, 100.0};
+        state.attitude = attitude(0.0, 0.0, 0.0);
+        Pose pose;
+        pose.eye_m = {0.0, 0.0, 114.0};
+        pose.attitude = attitude(0.0, -90.0, 0.0);
+        RenderOptions options;
+        const std::array states{state};
+        options.states = states;
+        const Frames frames = world.render(Camera{64, 64, 40.0}, std::array{pose}, Output::Rgb, options);
+        std::array<int, 3> found{};
+        for (std::size_t i = 0; i < frames.rgb.size(); i += 3) {
+            const int red = frames.rgb[i];
+            const int green = frames.rgb[i + 1];
+            ++found.at(red > 2 * green ? 0 : green > 2 * red ? 1 : 2); // between texels colours mix
+        }
+        return found;
+    };
+    const auto [red, green, others] = counts("true");
+    CHECK(red > 1000);
+    CHECK(green > 1000);
+    CHECK(others < 2000);
+    CHECK(counts("false")[2] > 3000); // colours of corners, which are means
+    for (const char* const ending : {".tga", ".mtl", ".obj"}) { std::remove((name + ending).c_str()); }
 }

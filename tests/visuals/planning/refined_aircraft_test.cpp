@@ -287,6 +287,50 @@ TEST_CASE("what is clear of refined aircraft is drawn after all of them, the far
     }
 }
 
+TEST_CASE("parts of a refined aircraft move as its motion has it, the same in each picture of a state") {
+    planning::AircraftModel model = convex_aircraft(box_model({4.0, 4.0, 1.0}));
+    planning::add_progressive(model, hierarchy(), 0.2);
+    models::TriangleMesh flap;
+    flap.vertices_m = {{-5, 0, 0}, {-9, 1, 0}, {-9, -1, 0}};
+    flap.triangles = {{0, 1, 2}, {0, 2, 1}};
+    models::PartMove turn;
+    turn.control = models::FlightControl::Roll;
+    turn.point_m = {-5.0, 0.0, 0.0};
+    turn.direction = {0.0, 1.0, 0.0};
+    turn.amounts = {{-1.0, -1.0}, {1.0, 1.0}};
+    models::PartMove gear;
+    gear.kind = models::PartMove::Kind::Show;
+    gear.control = models::FlightControl::Gear;
+    gear.amounts = {{0.0, 0.0}, {1.0, 1.0}};
+    const std::array<planning::MovingPartMesh, 2> parts{{{&flap, std::nullopt, {turn}}, {&flap, std::nullopt, {gear}}}};
+    planning::add_moving_parts(model, parts);
+    CHECK(model.part_count() == 3);
+    CHECK(model.hull.min_m.x == Approx(-9.0));
+    CHECK(model.hull.min_m.z <= -4.0 * std::sin(1.0));
+
+    planning::Scene scene = small_scene({std::move(model)}, {0});
+    const scene::Settings settings = plain_settings();
+    const auto tip_in = [&](double roll_radps) {
+        planning::Planner planner(scene, settings);
+        std::array states{state_at({0, 30, 0})};
+        states[0].velocity_mps = {0.0, 200.0, 0.0}; // with the gear up
+        states[0].turn_rate_radps.x = roll_radps;
+        const scene::FramePlan& plan = planner.plan({scene::camera_looking_at({0, 0, 0}, {0, 30, 0}), states}).plan;
+        REQUIRE(plan.aircraft.size() == 1);
+        const scene::AircraftDraw& draw = plan.aircraft[0];
+        const scene::ModelBuffers& buffers = scene.models[0]->buffers;
+        const scene::ModelVertex& tip = buffers.vertices[buffers.indices[draw.first_index + 1]];
+        const scene::ModelVertex& wheel = buffers.vertices[buffers.indices[draw.first_index + 7]];
+        const glm::mat4 to_body = glm::inverse(plan.parts[draw.first_part]);
+        const glm::vec4 hidden = to_body * plan.parts[draw.first_part + wheel.part] * glm::vec4(wheel.position_m, 1.0F);
+        CHECK(glm::length(glm::vec3(hidden)) < 1e-5F);
+        return glm::vec3(to_body * plan.parts[draw.first_part + tip.part] * glm::vec4(tip.position_m, 1.0F));
+    };
+    CHECK(tip_in(0.0).z == Approx(0.0).margin(1e-5));
+    CHECK(tip_in(1.0).z == Approx(4.0 * std::sin(std::sqrt(0.5))));
+    CHECK(tip_in(-1.0).z == Approx(-4.0 * std::sin(std::sqrt(0.5))));
+}
+
 TEST_CASE("what turns beside a refined aircraft is drawn after it by the same depth, turned") {
     models::polygons::PolygonModel polygons = box_model({4.0, 4.0, 1.0});
     polygons.parts.emplace_back("propeller");
@@ -296,8 +340,8 @@ TEST_CASE("what turns beside a refined aircraft is drawn after it by the same de
     models::TriangleMesh blade;
     blade.vertices_m = {{5, 0, 0}, {5, 1, 6}, {5, -1, 6}};
     blade.triangles = {{0, 1, 2}, {0, 2, 1}};
-    const std::array<planning::TurningPartMesh, 1> parts{{{&blade, 0}}};
-    planning::add_turning_parts(model, parts);
+    const std::array<planning::MovingPartMesh, 1> parts{{{&blade, 0, {}}}};
+    planning::add_moving_parts(model, parts);
     CHECK(model.hull.max_m.y == Approx(std::sqrt(37.0))); // wherever the blade points
     CHECK(model.hull.min_m.z == Approx(-std::sqrt(37.0)));
 
