@@ -1,3 +1,4 @@
+#include "flightpaths/recorded_track.h"
 #include "flightpaths/track_motion.h"
 #include "flightpaths/track_recording.h"
 #include "sim/base/axes.h"
