@@ -90,7 +90,11 @@ public:
             if (line.starts_with("#")) {
                 take_time(line.substr(1));
             } else if (line.starts_with("-")) {
-                now_.erase(id_from(line.substr(1)));
+                const auto gone = now_.find(id_from(line.substr(1)));
+                if (gone != now_.end()) {
+                    stay_until_now(gone->second);
+                    now_.erase(gone);
+                }
             } else if (!text_.peek().empty() && !line.starts_with("//")) {
                 take_object(line);
             }
@@ -151,7 +155,16 @@ private:
         return object.importance + (is_player ? player : 0.0) + (object.pilot.empty() ? 0.0 : piloted);
     }
 
+    /// A place is written only when it changes: an aircraft with a single one stands there until it is taken away.
+    void stay_until_now(const Present& present) {
+        const Object& object = objects_[present.object];
+        if (!object.has_places || !flies(object.type)) { return; }
+        const std::vector<Fix>& fixes = fixes_.series(object.key).fixes;
+        if (fixes.size() == 1 && time_s_ > fixes.front().time_s) { add_fix(present); }
+    }
+
     TrackRecording recording() {
+        for (const auto& [id, present] : now_) { stay_until_now(present); }
         for (const Object& object : objects_) {
             if (!flies(object.type)) {
                 ++others_;
@@ -174,8 +187,7 @@ private:
             if (!flies(object.type) && object.has_places) { fixes_.series(object.key).fixes.clear(); }
         }
         if (fixes_.aircraft_count() == 0) {
-            throw_error_in(
-                source_.file, fmt::format("expected aircraft that move, got none among {} objects", objects_.size()));
+            throw_error_in(source_.file, fmt::format("expected aircraft, got none among {} objects", objects_.size()));
         }
         return std::move(fixes_).recording(source_.follow);
     }

@@ -46,10 +46,19 @@ struct LogMessage {
     }
 };
 
+struct LogKind {
+    std::string_view format;
+    /// The messages that have places.
+    std::string_view places;
+    /// How long ago a receiver was where it says that it is; the autopilot's estimates do not lag.
+    double receiver_delay_s = 0.0;
+};
+
 /// Collects the messages that tell of the flight.
 class LogFlight {
 public:
-    LogFlight(const TrackSource& source, std::string format) : source_(source), fixes_(std::move(format), source.file) {
+    LogFlight(const TrackSource& source, const LogKind& kind)
+        : source_(source), kind_(kind), fixes_(std::string(kind.format), source.file) {
         fixes_.heights = HeightKind::Sea;
     }
 
@@ -92,7 +101,10 @@ public:
             fixes_.add(series, fix);
         }
         for (long i = 0; i < without_place_; ++i) { fixes_.skip_row(); }
-        if (places.empty()) { throw_error_in(source_.file, "expected places (POS or GPS messages), got none"); }
+        if (places.empty()) {
+            throw_error_in(source_.file, fmt::format("expected places on the earth ({}), got none{}", kind_.places,
+                                             without_place_ > 0 ? fmt::format(" in {} of them", without_place_) : ""));
+        }
         return std::move(fixes_).recording(source_.follow);
     }
 
@@ -139,6 +151,7 @@ private:
             fix.ground_speed_mps = static_cast<float>(message.value({"Spd"}));
             fix.track_deg = static_cast<float>(message.value({"GCrs"}));
             fix.up_mps = -static_cast<float>(message.value({"VZ", "Vz"}));
+            fix.time_s -= kind_.receiver_delay_s;
             take_satellite_time(message, fix.time_s);
         }
         std::vector<Fix>& places = is_estimate ? estimated_ : received_;
@@ -180,6 +193,7 @@ private:
     }
 
     const TrackSource& source_;
+    LogKind kind_;
     FixTable fixes_;
     std::string firmware_;
     std::vector<Angles> angles_;
@@ -187,6 +201,9 @@ private:
     std::vector<Fix> received_;
     long without_place_ = 0;
 };
+
+constexpr std::string_view ardupilot_places = "POS or GPS messages with a fix";
+constexpr double ardupilot_delay_s = 0.2;
 
 constexpr char magic_1 = '\xA3';
 constexpr char magic_2 = '\x95';
@@ -330,7 +347,7 @@ TrackRecording dataflash_binary_recording(const TrackSource& source) {
     constexpr std::size_t format_bytes = 86;
     std::array<MessageFormat, 256> formats;
     formats[format_kind].length = header_bytes + format_bytes;
-    LogFlight flight(source, "ArduPilot DataFlash");
+    LogFlight flight(source, {"ArduPilot DataFlash", ardupilot_places, ardupilot_delay_s});
     std::size_t at = 0;
     std::size_t skipped = 0;
     while (at + header_bytes < source.bytes.size()) {
@@ -367,7 +384,7 @@ bool is_dataflash_text(std::string_view text) {
 
 TrackRecording dataflash_text_recording(const TrackSource& source) {
     std::map<std::string, std::vector<std::string>, std::less<>> formats;
-    LogFlight flight(source, "ArduPilot log");
+    LogFlight flight(source, {"ArduPilot log", ardupilot_places, ardupilot_delay_s});
     int line = 0;
     for (const std::string_view row : split_lines(source.bytes)) {
         ++line;
@@ -450,7 +467,8 @@ std::vector<UlogField> ulog_fields(std::string_view format) {
 /// Turns the messages of a ULog into those of LogFlight.
 class UlogReader {
 public:
-    explicit UlogReader(const TrackSource& source) : source_(source), flight_(source, "PX4 ULog") {}
+    explicit UlogReader(const TrackSource& source)
+        : source_(source), flight_(source, {"PX4 ULog", "vehicle_global_position, vehicle_gps_position", 0.1}) {}
 
     TrackRecording read() {
         constexpr std::size_t head = 3;

@@ -14,6 +14,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <iterator>
+#include <limits>
 #include <tuple>
 #include <utility>
 
@@ -67,12 +68,22 @@ bool moves(const FixSeries& flight) {
         flight.fixes, [&](const Fix& fix) { return distance_between_m(flight.fixes.front(), fix) > far_m; });
 }
 
-/// The followed flight by itself: the one of the recording's pilot, else the longest of those that go somewhere.
+/// The followed flight by itself: the one of the recording's pilot, else the longest of those that go somewhere. Of
+/// more aircraft than are kept it is one with many others near it.
 std::size_t default_index(const std::vector<FixSeries>& flights) {
-    const auto rank = [](const FixSeries& flight) {
-        return std::tuple(flight.importance, moves(flight), span_s(flight));
+    const std::size_t apart = std::max<std::size_t>(1, flights.size() / max_recorded_aircraft);
+    const auto near = [&](const FixSeries& flight) {
+        long count = 0;
+        for (std::size_t i = 0; i < flights.size() && apart > 1; i += apart) {
+            count += distance_between_m(flight.fixes.front(), flights[i].fixes.front()) < max_distance_of_others_m;
+        }
+        return count;
     };
-    return static_cast<std::size_t>(std::ranges::max_element(flights, {}, rank) - flights.begin());
+    std::vector<std::tuple<double, long, bool, double>> ranks;
+    for (const FixSeries& flight : flights) {
+        ranks.emplace_back(flight.importance, near(flight), moves(flight), span_s(flight));
+    }
+    return static_cast<std::size_t>(std::ranges::max_element(ranks) - ranks.begin());
 }
 
 } // namespace
@@ -145,24 +156,65 @@ void FixTable::join_in_sequence() {
     }
 }
 
-void FixTable::space_out() {
-    constexpr double speed_mps = 60.0;
-    time_scale = TimeScale::Own;
-    for (FixSeries& series : series_) {
-        double time_s = 0.0;
-        std::vector<Fix> spaced;
-        for (Fix& fix : series.fixes) {
-            if (!spaced.empty()) {
-                const double way_m = distance_between_m(spaced.back(), fix);
-                if (way_m == 0.0) { continue; }
-                time_s += way_m / speed_mps;
-            }
-            fix.time_s = time_s;
-            spaced.push_back(fix);
-        }
-        series.fixes = std::move(spaced);
+namespace {
+
+/// The speed at which a line of places can be flown: a tenth of its way has sharper bends.
+double speed_of_line_mps(const std::vector<Fix>& line) {
+    constexpr double slowest_mps = 10.0;
+    constexpr double fastest_mps = 60.0;
+    std::vector<std::pair<double, double>> bends; // speed and way
+    double way_m = 0.0;
+    for (std::size_t i = 1; i + 1 < line.size(); ++i) {
+        const auto course_rad = [&](const Fix& from, const Fix& to) {
+            const double east = std::remainder(to.longitude_deg - from.longitude_deg, 360.0) *
+                                std::cos(rad_from_deg(from.latitude_deg));
+            return std::atan2(east, to.latitude_deg - from.latitude_deg);
+        };
+        const double turn_rad =
+            std::abs(wrapped_to_pi(course_rad(line[i], line[i + 1]) - course_rad(line[i - 1], line[i])));
+        const double leg_m =
+            0.5 * (distance_between_m(line[i - 1], line[i]) + distance_between_m(line[i], line[i + 1]));
+        bends.emplace_back(std::sqrt(gravity_mps2 * leg_m / std::max(turn_rad, 1e-6)), leg_m);
+        way_m += leg_m;
     }
-    notes_.push_back(fmt::format("the line has no times: flown at {:.0f} m/s", speed_mps));
+    std::ranges::sort(bends);
+    double sum_m = 0.0;
+    for (const auto& [speed_mps, leg_m] : bends) {
+        sum_m += leg_m;
+        if (sum_m >= 0.1 * way_m) { return std::clamp(speed_mps, slowest_mps, fastest_mps); }
+    }
+    return fastest_mps;
+}
+
+} // namespace
+
+void FixTable::space_out() {
+    time_scale = TimeScale::Own;
+    double slowest_mps = std::numeric_limits<double>::infinity();
+    for (FixSeries& series : series_) {
+        std::vector<Fix> line;
+        for (const Fix& fix : series.fixes) {
+            if (line.empty() || distance_between_m(line.back(), fix) > 0.0) { line.push_back(fix); }
+        }
+        const double speed_mps = speed_of_line_mps(line);
+        slowest_mps = std::min(slowest_mps, speed_mps);
+        for (std::size_t i = 0; i < line.size(); ++i) {
+            line[i].time_s = i == 0 ? 0.0 : line[i - 1].time_s + distance_between_m(line[i - 1], line[i]) / speed_mps;
+        }
+        series.fixes = std::move(line);
+    }
+    if (series_.empty()) { return; }
+    notes_.push_back(fmt::format("the line has no times: flown at {:.0f} m/s, which its bends allow", slowest_mps));
+}
+
+void FixTable::keep_longest() {
+    std::erase_if(series_, [](const FixSeries& series) { return series.fixes.empty(); });
+    if (series_.size() < 2) { return; }
+    const auto longest = std::ranges::max_element(series_, {}, span_s);
+    notes_.push_back(fmt::format("left out {} lines shorter than the one that is flown", series_.size() - 1));
+    std::rotate(series_.begin(), longest, longest + 1);
+    series_.resize(1);
+    series_.front().id.clear();
 }
 
 /// Makes times of day and leap seconds increase.

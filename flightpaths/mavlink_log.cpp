@@ -114,7 +114,8 @@ TrackRecording mavlink_log_recording(const TrackSource& source) {
     }
     if (skipped > 0) { fixes.add_note(fmt::format("left out {} bytes between the frames of the log", skipped)); }
     if (fixes.fix_count() == 0) {
-        throw_error_in(source.file, "expected places (GLOBAL_POSITION_INT or HIL_STATE_QUATERNION), got none");
+        throw_error_in(
+            source.file, "expected places on the earth (GLOBAL_POSITION_INT or HIL_STATE_QUATERNION), got none");
     }
     return std::move(fixes).recording(source.follow);
 }

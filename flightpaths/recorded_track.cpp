@@ -6,6 +6,8 @@
 #include "sim/base/text_file.h"
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
 #include <fmt/format.h>
 #include <iterator>
 #include <utility>
@@ -41,6 +43,40 @@ std::string from_utf16(std::string_view bytes) {
     return out;
 }
 
+constexpr std::string_view unknown_binary = "binary data";
+
+/// What binary data are, by their first bytes.
+std::string_view binary_kind(std::string_view bytes) {
+    struct Kind {
+        std::size_t at;
+        std::string_view bytes;
+        std::string_view name;
+    };
+
+    using namespace std::string_view_literals;
+    static constexpr std::array kinds{Kind{0, "\x89PNG"sv, "a PNG picture"},
+        Kind{0, "\xFF\xD8\xFF"sv, "a JPEG picture"}, Kind{0, "GIF8"sv, "a GIF picture"},
+        Kind{0, "II*\0"sv, "a TIFF picture or map"}, Kind{0, "MM\0*"sv, "a TIFF picture or map"},
+        Kind{0, "%PDF"sv, "a PDF document"}, Kind{0, "\x1F\x8B"sv, "a gzip archive: unpack it"},
+        Kind{0, "BZh"sv, "a bzip2 archive: unpack it"}, Kind{0, "7z\xBC\xAF"sv, "a 7z archive: unpack it"},
+        Kind{0,
+            "\xFD"
+            "7zXZ"sv,
+            "an xz archive: unpack it"},
+        Kind{0,
+            "\x7F"
+            "ELF"sv,
+            "a program"},
+        Kind{0, "MZ"sv, "a program"}, Kind{0, "SQLite format 3"sv, "an SQLite database"},
+        Kind{0, "\x89HDF"sv, "an HDF5 file"}, Kind{0, "PAR1"sv, "a Parquet file"},
+        Kind{0, "RIFF"sv, "a sound or video"}, Kind{4, "ftyp"sv, "a video"}, Kind{8, ".FIT"sv, "a Garmin FIT file"},
+        Kind{0, "glTF"sv, "a glTF mesh"}, Kind{0, "\xB5\x62"sv, "u-blox messages"}, Kind{0, "BUILD"sv, "a DJI log"},
+        Kind{16, "BUILD"sv, "a DJI log"}};
+    const auto* const kind = std::ranges::find_if(
+        kinds, [&](const Kind& one) { return bytes.substr(std::min(one.at, bytes.size())).starts_with(one.bytes); });
+    return kind == kinds.end() ? unknown_binary : kind->name;
+}
+
 /// Text as readers want it. `storage` holds what had to be converted.
 std::string_view plain_text(
     std::string_view bytes, const std::filesystem::path& file, std::string& storage, std::vector<std::string>& notes) {
@@ -55,8 +91,11 @@ std::string_view plain_text(
         notes.push_back(fmt::format("left out {} zero bytes at the end of the file", zeros));
         bytes.remove_suffix(zeros);
     }
-    if (bytes.find('\0') != bytes.npos) {
-        throw_error_in(file, "expected text or a known format of flight recordings, got binary data");
+    const bool has_magic =
+        !bytes.empty() && static_cast<unsigned char>(bytes.front()) >= 0x80U && binary_kind(bytes) != unknown_binary;
+    if (has_magic || bytes.find('\0') != bytes.npos) {
+        throw_error_in(
+            file, fmt::format("expected text or a known format of flight recordings, got {}", binary_kind(bytes)));
     }
     return bytes;
 }

@@ -1,6 +1,5 @@
-#include "flightpaths/track_attitude.h"
-
 #include "flightpaths/height_envelope.h"
+#include "flightpaths/track_steps.h"
 #include "sim/atmosphere.h"
 #include "sim/base/units.h"
 
@@ -29,26 +28,42 @@ glm::dquat from_axes(const glm::dvec3& forward, const glm::dvec3& up) {
     return glm::normalize(glm::quat_cast(glm::dmat3(forward, right, -above)));
 }
 
-/// How the nose lies to the motion through the air: at the usual equivalent airspeed of a flight and 1 g by usual_rad,
-/// and by of_lift_rad more where the wing must lift twice as much. Flaps lift most of what slow flight asks for:
-/// recordings of light aircraft and of airliners show little more.
+/// How the nose lies to the motion through the air: linear in the lift that is asked for, n / v^2. Where a take-off or
+/// a landing shows how slow it flies, the angle there is that of its class: large for heavy aircraft and jets, small
+/// for light ones with their flaps. Otherwise its usual speed stands for it.
 struct AngleOfAttack {
-    static constexpr double usual_rad = rad_from_deg(1.5);
-    static constexpr double of_lift_rad = rad_from_deg(0.8);
-    static constexpr double most_rad = rad_from_deg(12.0);
-    double usual_airspeed_mps = 0.0;
+    static constexpr double most_rad = rad_from_deg(14.0);
+    /// Without lift, and by how much more at 1 g and this airspeed.
+    double base_rad = rad_from_deg(0.7);
+    double of_lift_rad = rad_from_deg(0.8);
+    double airspeed_mps = 0.0;
 
-    double rad(double load_factor, double airspeed_mps) const {
-        const double ratio = usual_airspeed_mps / std::max(airspeed_mps, 0.3 * usual_airspeed_mps);
+    /// By the equivalent airspeed that most of the flight does not exceed.
+    static AngleOfAttack of_usual(double usual_mps) { return {.airspeed_mps = usual_mps}; }
+
+    /// By the slowest at which it left the ground or came to it.
+    static AngleOfAttack of_slowest(double slowest_mps) {
+        constexpr double light_mps = 45.0;
+        constexpr double heavy_mps = 62.0;
+        const double heavy = std::clamp((slowest_mps - light_mps) / (heavy_mps - light_mps), 0.0, 1.0);
+        return {.base_rad = rad_from_deg(-1.0 + 1.5 * heavy),
+            .of_lift_rad = rad_from_deg(4.0 + 4.0 * heavy),
+            .airspeed_mps = slowest_mps};
+    }
+
+    double rad(double load_factor, double equivalent_mps) const {
+        const double ratio = airspeed_mps / std::max(equivalent_mps, 0.3 * airspeed_mps);
         const double lift = std::clamp(load_factor, -1.0, 6.0) * ratio * ratio;
-        return std::clamp(usual_rad + of_lift_rad * (lift - 1.0), -most_rad, most_rad);
+        return std::clamp(base_rad + of_lift_rad * lift, -most_rad, most_rad);
     }
 };
 
 class AttitudeFinder {
 public:
-    AttitudeFinder(const PathKinematics& path, const PathPhases& phases, const WindEstimate& wind)
-        : path_(path), phases_(phases), attitudes_(path.times_s.size()), lift_(0.0, 0.0, 1.0) {
+    AttitudeFinder(const PathKinematics& path, const PathPhases& phases, const WindEstimate& wind,
+        const MeasuredAngle& headings_rad)
+        : path_(path), phases_(phases), measured_headings_rad_(headings_rad), attitudes_(path.times_s.size()),
+          lift_(0.0, 0.0, 1.0) {
         std::vector<double> airspeeds_mps;
         for (std::size_t i = 0; i < path.times_s.size(); ++i) {
             const glm::dvec2 drift_mps = on_ground(i) ? glm::dvec2(0.0) : wind.wind_mps(path.times_s[i]);
@@ -59,16 +74,17 @@ public:
             // Of ten samples one is faster.
             const auto fast = airspeeds_mps.begin() + static_cast<std::ptrdiff_t>(airspeeds_mps.size() * 9 / 10);
             std::ranges::nth_element(airspeeds_mps, fast);
-            wing_.usual_airspeed_mps = *fast;
+            usual_airspeed_mps_ = *fast;
         }
+        const auto slowest_mps = slowest_flown_mps();
+        wing_ = slowest_mps ? AngleOfAttack::of_slowest(*slowest_mps) : AngleOfAttack::of_usual(usual_airspeed_mps_);
     }
 
     std::vector<EulerAngles> found() && {
+        find_felt();
         find_headings();
         for (std::size_t i = 0; i < attitudes_.size(); ++i) {
-            attitudes_[i] = EulerAngles{.heading_rad = headings_rad_[i]};
-            if (on_ground(i)) { continue; }
-            attitudes_[i] = phases_.hovers ? of_rotor(i) : of_wing(i);
+            if (!on_ground(i)) { attitudes_[i] = phases_.hovers ? of_rotor(i) : of_wing(i); }
         }
         blend_on_ground();
         return std::move(attitudes_);
@@ -80,6 +96,21 @@ private:
         const double density =
             sim::standard_air(path_.positions_m[at].z).density_kgpm3 / sim::standard_air(0.0).density_kgpm3;
         return glm::length(through_air_mps_[at]) * std::sqrt(density);
+    }
+
+    /// The least equivalent airspeed of its take-offs, else of its landings; nothing where it has neither.
+    std::optional<double> slowest_flown_mps() const {
+        std::optional<double> lifting_mps;
+        std::optional<double> landing_mps;
+        constexpr double least_mps = 15.0;
+        for (std::size_t i = 1; i < phases_.phases.size(); ++i) {
+            const bool lifts = on_ground(i - 1) && !on_ground(i);
+            if (!lifts && !(!on_ground(i - 1) && on_ground(i))) { continue; }
+            const double airspeed_mps = equivalent_airspeed_mps(lifts ? i : i - 1);
+            std::optional<double>& least = lifts ? lifting_mps : landing_mps;
+            if (airspeed_mps > least_mps) { least = std::min(least.value_or(airspeed_mps), airspeed_mps); }
+        }
+        return lifting_mps ? lifting_mps : landing_mps;
     }
 
     bool on_ground(std::size_t at) const { return is_on_ground(phases_.phases[at]); }
@@ -97,6 +128,7 @@ private:
     void find_headings() {
         std::vector<std::optional<double>> known;
         for (std::size_t i = 0; i < attitudes_.size(); ++i) { known.push_back(heading_of_motion(i)); }
+        turn_pushed_back(known);
         headings_rad_.assign(attitudes_.size(), 0.0);
         std::optional<double> last_rad;
         for (std::size_t i = 0; i < known.size(); ++i) {
@@ -110,12 +142,42 @@ private:
             hold_heading({i, end}, last_rad.value_or(next_rad.value_or(0.0)), next_rad);
             i = end - 1;
         }
+        for (std::size_t i = 0; i < attitudes_.size(); ++i) { attitudes_[i].heading_rad = headings_rad_[i]; }
+        take_measured(path_.times_s, measured_headings_rad_, &EulerAngles::heading_rad, attitudes_);
     }
 
     struct Range {
         std::size_t begin = 0;
         std::size_t end = 0;
     };
+
+    /// Where a slow short way on the ground is followed by one the other way, the aircraft was pushed back: its nose
+    /// points the other way.
+    void turn_pushed_back(std::vector<std::optional<double>>& headings_rad) const {
+        constexpr double fastest_mps = 4.0;
+        constexpr double furthest_m = 200.0;
+        constexpr double least_turn_rad = rad_from_deg(100.0);
+        std::optional<Range> last;
+        for (std::size_t i = 0; i < headings_rad.size(); ++i) {
+            if (!headings_rad[i]) { continue; }
+            Range way{i, i};
+            double most_mps = 0.0;
+            double way_m = 0.0;
+            for (; way.end < headings_rad.size() && headings_rad[way.end] && on_ground(way.end); ++way.end) {
+                most_mps = std::max(most_mps, glm::length(path_.velocities_mps[way.end]));
+                if (way.end > i) { way_m += glm::distance(path_.positions_m[way.end], path_.positions_m[way.end - 1]); }
+            }
+            if (way.end == i) { // in the air
+                last.reset();
+                continue;
+            }
+            if (last && std::abs(wrapped_to_pi(*headings_rad[i] - *headings_rad[last->end - 1])) > least_turn_rad) {
+                for (std::size_t k = last->begin; k < last->end; ++k) { *headings_rad[k] += pi; }
+            }
+            last = most_mps < fastest_mps && way_m < furthest_m ? std::optional(way) : std::nullopt;
+            i = way.end - 1;
+        }
+    }
 
     void hold_heading(const Range& range, double held_rad, const std::optional<double>& next_rad) {
         constexpr double turning_s = 4.0;
@@ -128,8 +190,26 @@ private:
         }
     }
 
-    glm::dvec3 felt_mps2(std::size_t at) const {
-        return path_.accelerations_mps2[at] + glm::dvec3(0.0, 0.0, gravity_mps2);
+    glm::dvec3 felt_mps2(std::size_t at) const { return felt_mps2_[at]; }
+
+    /// What is felt, each time the mean of the times around it: no aircraft tilts faster than it can, but errors of a
+    /// recorder's clock and places look like it.
+    void find_felt() {
+        constexpr double of_wing_s = 0.3;
+        constexpr double of_drone_s = 0.5;
+        constexpr double of_helicopter_s = 1.0;
+        const double around_s = !phases_.hovers ? of_wing_s : is_heavy_rotorcraft() ? of_helicopter_s : of_drone_s;
+        const std::vector<double>& times_s = path_.times_s;
+        std::size_t begin = 0;
+        std::size_t end = 0;
+        glm::dvec3 sum(0.0);
+        for (std::size_t i = 0; i < times_s.size(); ++i) {
+            while (end < times_s.size() && times_s[end] <= times_s[i] + around_s) {
+                sum += path_.accelerations_mps2[end++];
+            }
+            while (times_s[begin] < times_s[i] - around_s) { sum -= path_.accelerations_mps2[begin++]; }
+            felt_mps2_.push_back(sum / static_cast<double>(end - begin) + glm::dvec3(0.0, 0.0, gravity_mps2));
+        }
     }
 
     /// Sets the direction of lift by the part of the felt acceleration that is across the motion, and returns the load
@@ -170,7 +250,7 @@ private:
     EulerAngles of_wing(std::size_t at) {
         const glm::dvec3 motion_mps = through_air_mps_[at];
         const double airspeed_mps = glm::length(motion_mps);
-        if (airspeed_mps < heading_known_mps) { return {.heading_rad = headings_rad_[at]}; }
+        if (airspeed_mps < heading_known_mps) { return attitudes_[at]; }
         const glm::dvec3 ahead = motion_mps / airspeed_mps;
         const glm::dvec3 felt = felt_mps2(at);
         const glm::dvec3 across = felt - glm::dot(felt, ahead) * ahead;
@@ -181,17 +261,21 @@ private:
         return euler_from_body_to_world(from_axes(nose, std::cos(attack_rad) * lift_ - std::sin(attack_rad) * ahead));
     }
 
+    bool is_heavy_rotorcraft() const {
+        constexpr double helicopter_mps = 25.0; // drones are slower
+        return usual_airspeed_mps_ > helicopter_mps;
+    }
+
     /// A rotor is tilted so that its thrust accelerates and carries the aircraft and overcomes its drag.
     EulerAngles of_rotor(std::size_t at) const {
-        constexpr double heavy_mps = 25.0; // usual airspeed, above which it is a helicopter
         constexpr double drag_of_drone_per_s = 0.2;
         constexpr double drag_of_helicopter_per_s = 0.014;
-        const double drag_per_s = wing_.usual_airspeed_mps > heavy_mps ? drag_of_helicopter_per_s : drag_of_drone_per_s;
+        const double drag_per_s = is_heavy_rotorcraft() ? drag_of_helicopter_per_s : drag_of_drone_per_s;
         const glm::dvec3 motion_mps = through_air_mps_[at];
         glm::dvec3 thrust = felt_mps2(at) + drag_per_s * glm::dvec3(motion_mps.x, motion_mps.y, 0.0);
         thrust.z = std::max(thrust.z, 0.5 * gravity_mps2);
         const glm::dvec3 up = glm::normalize(thrust);
-        const glm::dvec3 ahead = direction_from_heading(headings_rad_[at]);
+        const glm::dvec3 ahead = direction_from_heading(attitudes_[at].heading_rad);
         return euler_from_body_to_world(from_axes(glm::normalize(ahead - glm::dot(ahead, up) * up), up));
     }
 
@@ -220,21 +304,26 @@ private:
 
     const PathKinematics& path_;
     const PathPhases& phases_;
+    const MeasuredAngle& measured_headings_rad_;
     std::vector<EulerAngles> attitudes_;
     std::vector<glm::dvec3> through_air_mps_;
     std::vector<double> headings_rad_;
+    std::vector<glm::dvec3> felt_mps2_;
     glm::dvec3 lift_;
     /// When the load factor was positive last, and when the direction of lift was found last.
     double last_pulled_s_ = -1e9;
     double last_lift_s_ = -1e9;
+    double usual_airspeed_mps_ = 0.0;
     AngleOfAttack wing_;
 };
 
 } // namespace
 
 std::vector<EulerAngles> inferred_attitudes(
-    const PathKinematics& path, const PathPhases& phases, const WindEstimate& wind) {
-    return AttitudeFinder(path, phases, wind).found();
+    const PathKinematics& path, const PathPhases& phases, const WindEstimate& wind, const MeasuredAngle& headings_rad) {
+    std::vector<EulerAngles> attitudes = AttitudeFinder(path, phases, wind, headings_rad).found();
+    take_measured(path.times_s, headings_rad, &EulerAngles::heading_rad, attitudes);
+    return attitudes;
 }
 
 void take_measured(std::span<const double> times_s, const MeasuredAngle& measured, double EulerAngles::*angle,

@@ -1,10 +1,7 @@
 #include "flightpaths/track_motion.h"
 
 #include "flightpaths/derived_motion.h"
-#include "flightpaths/track_attitude.h"
-#include "flightpaths/track_phases.h"
-#include "flightpaths/track_places.h"
-#include "flightpaths/track_wind.h"
+#include "flightpaths/track_steps.h"
 #include "sim/aircraft_state.h"
 #include "sim/base/axes.h"
 #include "sim/base/units.h"
@@ -52,7 +49,13 @@ Origin origin_of(Samples samples, Has&& has) {
     return count == samples.size() ? Origin::Measured : count > 0 ? Origin::Partly : Origin::Inferred;
 }
 
+/// By its parts, or by speed and direction over the ground; climbs may be missing.
 bool has_velocity(const TrackSample& sample) {
+    return std::isfinite(sample.velocity_mps.x + sample.velocity_mps.y) ||
+           std::isfinite(sample.ground_speed_mps + sample.track_rad);
+}
+
+bool has_whole_velocity(const TrackSample& sample) {
     return std::isfinite(sample.velocity_mps.x + sample.velocity_mps.y + sample.velocity_mps.z);
 }
 
@@ -115,7 +118,7 @@ PathKinematics kinematics_of(const std::vector<sim::AircraftState>& states, Samp
 TrackMotion recorded_motion(const TrackedAircraft& aircraft, TrackInference inference) {
     std::vector<sim::AircraftState> states;
     for (const TrackSample& sample : aircraft.samples) { states.push_back(recorded_state(sample)); }
-    if (inference.velocity != Origin::Measured) { fill_velocities(states); }
+    if (!std::ranges::all_of(aircraft.samples, has_whole_velocity)) { fill_velocities(states); }
     take_load_factors(aircraft.samples, states);
     const PathKinematics path = kinematics_of(states, aircraft.samples);
     const PathPhases phases = phases_of(path, aircraft.type);
@@ -241,9 +244,8 @@ TrackMotion motion_of(const TrackedAircraft& aircraft) {
     const SmoothedPlaces& places = smoother.places();
     path = kinematics_of(places, aircraft.samples);
     const WindEstimate wind = wind_of(places, path, aircraft.samples);
-    std::vector<EulerAngles> attitudes = inferred_attitudes(path, phases, wind);
-    take_measured(path.times_s, at_times(places, aircraft.samples, &TrackSample::heading_rad),
-        &EulerAngles::heading_rad, attitudes);
+    std::vector<EulerAngles> attitudes =
+        inferred_attitudes(path, phases, wind, at_times(places, aircraft.samples, &TrackSample::heading_rad));
     take_measured(
         path.times_s, at_times(places, aircraft.samples, &TrackSample::pitch_rad), &EulerAngles::pitch_rad, attitudes);
     take_measured(

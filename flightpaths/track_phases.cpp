@@ -1,4 +1,4 @@
-#include "flightpaths/track_phases.h"
+#include "flightpaths/track_steps.h"
 
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <optional>
 #include <utility>
 
 namespace octant::flightpaths {
@@ -39,7 +40,7 @@ public:
     }
 
     PathPhases found(std::string_view type) {
-        const bool hovers = hovers_by_type(type) || leaves_or_lands_on_the_spot();
+        const bool hovers = hovers_by_type(type) || (leaves_or_lands_on_the_spot() && !runs_to_fly());
         std::vector<bool> on_ground = hovers ? ground_of_rotorcraft() : ground_of_fixed_wing();
         for (std::size_t i = 0; i < on_ground.size(); ++i) {
             if (path_.contacts[i] == GroundContact::OnGround) { on_ground[i] = true; }
@@ -86,6 +87,45 @@ private:
             }
         }
         return false;
+    }
+
+    /// Whether it gains the speed of flight, or loses it, along runs at the height at which it stands: then it has
+    /// wheels and a wing, and what seemed to be a climb on one spot were errors of the heights of a parked aircraft.
+    bool runs_to_fly() const {
+        constexpr double rolling_mps = 6.0;
+        constexpr double fast_mps = 24.0;
+        const double tolerance_m = std::max(1.0, 2.0 * path_.vertical_error_m);
+        // Of ten heights near a time at which it rolls or stands, one is lower.
+        const auto low_m = [&](double time_s) {
+            constexpr double near_s = 300.0;
+            std::vector<double> slow_m;
+            for (std::size_t i = 0; i < speeds_mps_.size(); ++i) {
+                if (speeds_mps_[i] < rolling_mps && std::abs(path_.times_s[i] - time_s) < near_s) {
+                    slow_m.push_back(height_m(i));
+                }
+            }
+            const auto low = slow_m.begin() + static_cast<std::ptrdiff_t>(slow_m.size() / 10);
+            std::ranges::nth_element(slow_m, low);
+            return *low;
+        };
+        int level = 0;
+        int others = 0;
+        std::optional<std::size_t> last;
+        constexpr int enough = 64;
+        for (std::size_t i = 0; i < speeds_mps_.size() && level + others < enough; ++i) {
+            const bool slow = speeds_mps_[i] < rolling_mps;
+            if (!slow && speeds_mps_[i] < fast_mps) { continue; }
+            if (last && slow != (speeds_mps_[*last] < rolling_mps)) {
+                const double way_m =
+                    glm::distance(glm::dvec2(path_.positions_m[i]), glm::dvec2(path_.positions_m[*last]));
+                const bool is_run =
+                    std::abs(height_m(i) - height_m(*last)) < tolerance_m + runway_slope * way_m &&
+                    height_m(slow ? i : *last) < low_m(path_.times_s[slow ? i : *last]) + 2.0 * tolerance_m + 2.0;
+                ++(is_run ? level : others);
+            }
+            last = i;
+        }
+        return level > others;
     }
 
     /// So slow no aircraft of this recording flies without hovering: a fifth of its usual speed. Jets land at less than

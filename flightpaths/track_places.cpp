@@ -1,4 +1,4 @@
-#include "flightpaths/track_places.h"
+#include "flightpaths/track_steps.h"
 
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 namespace octant::flightpaths {
 
@@ -66,6 +67,59 @@ double height_step_m(std::span<const double> heights_m) {
     return 20 * repeats >= heights_m.size() ? step_m : 0.0;
 }
 
+namespace {
+
+/// The step of a clock of which these times are whole numbers; 0 for one of less than a hundredth of a second.
+double clock_step_s(std::span<const TrackSample> samples) {
+    for (const double step_s : {1.0, 0.1, 0.01}) {
+        const bool is_step = std::ranges::all_of(samples, [&](const TrackSample& sample) {
+            const double steps = (sample.time_s - samples.front().time_s) / step_s;
+            return std::abs(steps - std::round(steps)) < 1e-4;
+        });
+        if (is_step) { return step_s; }
+    }
+    return 0.0;
+}
+
+/// Times of a recorder that samples evenly and rounds to its clock (0.11, 0.22, 0.33, 0.45 s) are made even within that
+/// rounding: at 250 m/s a hundredth of a second is 2.5 m of error, and acceleration that was not there.
+std::vector<double> evened_times_s(std::span<const TrackSample> samples) {
+    std::vector<double> times_s;
+    for (const TrackSample& sample : samples) { times_s.push_back(sample.time_s); }
+    const double clock_s = clock_step_s(samples);
+    if (clock_s == 0.0) { return times_s; }
+    constexpr std::size_t reach = 12;
+    constexpr double fewest_clock_steps = 4.0;
+    const auto step_s = [&](std::size_t i) { return samples[i + 1].time_s - samples[i].time_s; };
+    // Whether the steps before and after a sample are one number of clock steps or the next.
+    const auto is_even = [&](double least_s, double most_s) {
+        return least_s > (fewest_clock_steps - 0.5) * clock_s && most_s - least_s < 1.5 * clock_s;
+    };
+    for (std::size_t i = 1; i + 1 < samples.size(); ++i) {
+        double least_s = step_s(i);
+        double most_s = least_s;
+        std::size_t around = 0;
+        while (around < reach && around < i && i + around + 1 < samples.size()) {
+            const double before_s = step_s(i - around - 1);
+            const double after_s = step_s(i + around);
+            const double lower_s = std::min({least_s, before_s, after_s});
+            const double upper_s = std::max({most_s, before_s, after_s});
+            if (!is_even(lower_s, upper_s)) { break; }
+            least_s = lower_s;
+            most_s = upper_s;
+            ++around;
+        }
+        if (around < 2 || most_s - least_s < 0.5 * clock_s) { continue; }
+        double sum_s = 0.0;
+        for (std::size_t k = i - around; k <= i + around; ++k) { sum_s += samples[k].time_s - samples[i].time_s; }
+        const double mean_s = sum_s / static_cast<double>(2 * around + 1);
+        times_s[i] += std::clamp(mean_s, -0.5 * clock_s, 0.5 * clock_s);
+    }
+    return times_s;
+}
+
+} // namespace
+
 PlaceSmoother::PlaceSmoother(std::span<const TrackSample> samples) : samples_(samples) {
     fill_gaps();
     for (auto& axis : measured_) { axis.resize(places_.times_s.size()); }
@@ -80,28 +134,57 @@ PlaceSmoother::PlaceSmoother(std::span<const TrackSample> samples) : samples_(sa
 }
 
 void PlaceSmoother::fill_gaps() {
+    const std::vector<double> even_s = evened_times_s(samples_);
     for (std::size_t i = 0; i < samples_.size(); ++i) {
-        const double gap_s = i > 0 ? samples_[i].time_s - samples_[i - 1].time_s : 0.0;
+        const double gap_s = i > 0 ? even_s[i] - even_s[i - 1] : 0.0;
         if (gap_s > longest_step_s) {
             const double pieces = std::min(std::ceil(gap_s / filled_step_s), most_filled);
             for (double piece = 1.0; piece < pieces; piece += 1.0) {
-                places_.times_s.push_back(samples_[i - 1].time_s + gap_s * piece / pieces);
+                places_.times_s.push_back(even_s[i - 1] + gap_s * piece / pieces);
                 places_.samples.push_back(SmoothedPlaces::no_sample);
             }
         }
-        places_.times_s.push_back(samples_[i].time_s);
+        places_.times_s.push_back(even_s[i]);
         places_.samples.push_back(i);
     }
 }
 
+namespace {
+
+/// How the errors that a recorder states differ from the usual one: their squares, 1 where it states none.
+class StatedErrors {
+public:
+    StatedErrors(std::span<const TrackSample> samples, double TrackSample::*error_m) : error_m_(error_m) {
+        std::vector<double> stated_m;
+        for (const TrackSample& sample : samples) {
+            if (sample.*error_m > 0.0) { stated_m.push_back(sample.*error_m); }
+        }
+        usual_m_ = median_of(std::move(stated_m));
+    }
+
+    double variance(const TrackSample& sample) const {
+        constexpr double most = 30.0;
+        const double ratio = sample.*error_m_ / usual_m_;
+        return ratio > 0.0 ? squared(std::clamp(ratio, 1.0 / most, most)) : 1.0;
+    }
+
+private:
+    double TrackSample::*error_m_;
+    double usual_m_ = 0.0;
+};
+
+} // namespace
+
 void PlaceSmoother::measure_places() {
+    const StatedErrors horizontal(samples_, &TrackSample::horizontal_error_m);
+    const StatedErrors vertical(samples_, &TrackSample::vertical_error_m);
     for (std::size_t i = 0; i < places_.samples.size(); ++i) {
         if (places_.samples[i] == SmoothedPlaces::no_sample) { continue; }
         const TrackSample& sample = samples_[places_.samples[i]];
         for (int axis = 0; axis < 3; ++axis) {
             AxisMeasurement& measured = measured_[static_cast<std::size_t>(axis)][i];
             measured.position_m = sample.position_m[axis];
-            measured.position_variance = 1.0;
+            measured.position_variance = axis == 2 ? vertical.variance(sample) : horizontal.variance(sample);
         }
     }
 }
@@ -196,8 +279,8 @@ double likelihood_of(std::vector<AxisSeries> axes, double factor) {
     return sum;
 }
 
-/// The standard deviation of measured places, whose variances are 1, under which they are most likely. Where they
-/// cannot tell, that of a usual satellite receiver.
+/// The standard deviation of measured places, whose variances are 1 where they are as usual, under which they are most
+/// likely. Where they cannot tell, that of a usual satellite receiver.
 double most_likely_error_m(const std::vector<AxisSeries>& axes, double least_m) {
     constexpr double usual_m = 0.7;
     constexpr double spread = 1.5; // of the logarithm

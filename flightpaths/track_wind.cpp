@@ -1,5 +1,4 @@
-#include "flightpaths/track_wind.h"
-
+#include "flightpaths/track_steps.h"
 #include "sim/base/axes.h"
 #include "sim/base/units.h"
 

@@ -142,11 +142,11 @@ private:
         }
     }
 
-    static bool has_gpx_times(const std::vector<pugi::xml_node>& points);
+    bool has_gpx_times(const std::vector<pugi::xml_node>& points);
     void take_gpx_point(const pugi::xml_node& point, bool has_times, FixSeries& series);
     bool take_kml_track(const pugi::xml_node& track, FixSeries& series);
     void take_kml_point(const pugi::xml_node& placemark);
-    void take_kml_line(const pugi::xml_node& line, FixSeries& series);
+    void take_kml_line(const pugi::xml_node& line);
     void take_altitude_mode(const pugi::xml_node& geometry);
     bool take_coordinates(const pugi::xml_node& node, const std::vector<std::string_view>& parts, Fix& fix);
 
@@ -154,6 +154,8 @@ private:
     LineCounter lines_;
     pugi::xml_document document_;
     FixTable fixes_;
+    std::optional<Fix> last_of_lines_;
+    int lines_read_ = 0;
 };
 
 void XmlTrackReader::take_gpx_point(const pugi::xml_node& point, bool has_times, FixSeries& series) {
@@ -180,18 +182,19 @@ void XmlTrackReader::take_gpx_point(const pugi::xml_node& point, bool has_times,
     fixes_.add(series, fix);
 }
 
-/// Whether most points have times, and not all the same one.
+/// Whether most points have times, and these are more than fractions of one moment.
 bool XmlTrackReader::has_gpx_times(const std::vector<pugi::xml_node>& points) {
     std::size_t count = 0;
-    std::string_view first;
-    bool differ = false;
+    double first_s = 0.0;
+    double most_apart_s = 0.0;
     for (const pugi::xml_node& point : points) {
-        const std::string_view text = child_text(point, "time");
-        if (text.empty()) { continue; }
-        if (count++ == 0) { first = text; }
-        differ = differ || text != first;
+        const auto when = time(point, child_text(point, "time"));
+        if (!when) { continue; }
+        if (count++ == 0) { first_s = when->seconds; }
+        most_apart_s = std::max(most_apart_s, std::abs(when->seconds - first_s));
     }
-    return differ && 2 * count >= points.size();
+    constexpr double least_step_s = 0.01;
+    return 2 * count >= points.size() && most_apart_s > least_step_s * static_cast<double>(count);
 }
 
 TrackRecording XmlTrackReader::read_gpx() {
@@ -290,8 +293,9 @@ bool XmlTrackReader::take_kml_track(const pugi::xml_node& track, FixSeries& seri
 void XmlTrackReader::take_kml_point(const pugi::xml_node& placemark) {
     const pugi::xml_node point = child_named(placemark, "Point");
     const pugi::xml_node stamp = child_named(placemark, "TimeStamp");
-    if (!point || !stamp) { return; }
-    const auto when = time(stamp, child_text(stamp, "when"));
+    const pugi::xml_node span = child_named(placemark, "TimeSpan");
+    if (!point || (!stamp && !span)) { return; }
+    const auto when = stamp ? time(stamp, child_text(stamp, "when")) : time(span, child_text(span, "begin"));
     Fix fix;
     if (!when || !take_coordinates(point, split_fields(child_text(point, "coordinates"), ','), fix)) {
         fixes_.skip_row();
@@ -303,13 +307,21 @@ void XmlTrackReader::take_kml_point(const pugi::xml_node& placemark) {
     fixes_.add(fixes_.series(""), fix);
 }
 
-/// The places of a line; their times are 0 until FixTable::space_out() sets them.
-void XmlTrackReader::take_kml_line(const pugi::xml_node& line, FixSeries& series) {
+/// The places of a line; their times are 0 until FixTable::space_out() sets them. A line that begins where the one
+/// before it ended continues it, any other is one of its own.
+void XmlTrackReader::take_kml_line(const pugi::xml_node& line) {
     take_altitude_mode(line);
     const pugi::xml_node coordinates = child_named(line, "coordinates");
+    bool is_first = true;
     for (const std::string_view tuple : blank_separated(coordinates.child_value())) {
         Fix fix;
-        if (take_coordinates(coordinates, split_fields(tuple, ','), fix)) { fixes_.add(series, fix); }
+        if (!take_coordinates(coordinates, split_fields(tuple, ','), fix)) { continue; }
+        const bool continues = last_of_lines_ && last_of_lines_->latitude_deg == fix.latitude_deg &&
+                               last_of_lines_->longitude_deg == fix.longitude_deg;
+        lines_read_ += is_first && !continues ? 1 : 0;
+        is_first = false;
+        fixes_.add(fixes_.series(fmt::format("line {}", lines_read_)), fix);
+        last_of_lines_ = fix;
     }
 }
 
@@ -335,9 +347,9 @@ TrackRecording XmlTrackReader::read_kml() {
         for_each_named("Placemark", [&](const pugi::xml_node& placemark) { take_kml_point(placemark); });
     }
     if (fixes_.fix_count() == 0) {
-        FixSeries& series = fixes_.series("line");
-        for_each_named("LineString", [&](const pugi::xml_node& line) { take_kml_line(line, series); });
+        for_each_named("LineString", [&](const pugi::xml_node& line) { take_kml_line(line); });
         fixes_.space_out();
+        fixes_.keep_longest();
     }
     if (fixes_.fix_count() == 0) {
         throw_error_in(source_.file, "expected a track (gx:Track), points with times or a line (LineString), got none");

@@ -82,7 +82,7 @@ TEST_CASE("lines out of order, escapes, lines that go on and comments are read a
 TEST_CASE("what is no aircraft, seen once or impossible is left out and told") {
     const TrackRecording recording =
         recording_of("#0\n1,T=0|0|10\n2,T=0|0|0,Type=Ground+Tank\n3,T=0|0|10,Type=Air+FixedWing\n"
-                     "4,T=50|0|10,Type=Air+FixedWing\n#1\n1,T=0.001|0|10\n2,T=0.001|0|0\n4,T=50.001|0|10\n"
+                     "4,T=50|0|10,Type=Air+FixedWing\n-3\n#1\n1,T=0.001|0|10\n2,T=0.001|0|0\n4,T=50.001|0|10\n"
                      "#2\n1,T=1|0|10\n#3\n1,T=0.002|0|10\n1,T=0.002|95|10\n");
     REQUIRE(recording.aircraft.size() == 1);
     CHECK(recording.aircraft[0].samples.size() == 3);

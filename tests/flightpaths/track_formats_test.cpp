@@ -91,14 +91,55 @@ TEST_CASE("a GPX track over several days is its flights, of which the longest is
 }
 
 TEST_CASE("a GPX track without times, or all of one moment, is flown at a stated speed") {
-    for (const std::string time : {"", "<time>2024-05-01T10:00:00Z</time>"}) {
+    for (const std::string time :
+        {"", "<time>2024-05-01T10:00:00Z</time>", "<time>1901-12-13T20:45:52.207{}Z</time>"}) {
         std::string points;
-        for (int i = 0; i < 4; ++i) { points += fmt::format("<trkpt lat='47.00{}' lon='8'>{}</trkpt>", i, time); }
+        for (int i = 0; i < 4; ++i) {
+            points += fmt::format("<trkpt lat='47.00{}' lon='8'>", i) + fmt::format(fmt::runtime(time), i) + "</trkpt>";
+        }
         const TrackRecording line = recorded("<gpx><trk><trkseg>" + points + "</trkseg></trk></gpx>");
         CHECK(line.aircraft[0].samples.size() == 4);
         CHECK(line.aircraft[0].samples[3].time_s == Approx(3.0 * 111.2 / 60.0).epsilon(0.01));
         CHECK_THAT(notes_in(line), Contains("the line has no times: flown at 60 m/s"));
     }
+}
+
+TEST_CASE("a line with narrow bends is flown as slowly as they ask for; of several lines the longest is flown") {
+    std::string zigzag;
+    for (int i = 0; i < 20; ++i) {
+        zigzag += fmt::format("{},{:.5f},100 ", i % 2 == 0 ? "8" : "8.0001", 47 + i * 1e-4);
+    }
+    const std::string line = "<LineString><coordinates>{}</coordinates></LineString>";
+    const TrackRecording recording =
+        recorded("<kml><Placemark>" + fmt::format(fmt::runtime(line), "9,47,0 9.001,47,0") +
+                 fmt::format(fmt::runtime(line), zigzag) + "</Placemark></kml>");
+    REQUIRE(recording.aircraft.size() == 1);
+    CHECK(recording.aircraft[0].samples.size() == 20);
+    CHECK_THAT(notes_in(recording), Contains("flown at 11 m/s"));
+    CHECK_THAT(notes_in(recording), Contains("left out 1 lines shorter"));
+}
+
+TEST_CASE("points of a KML file may have the time span in which they are shown") {
+    const TrackRecording points = recorded(
+        "<kml><Placemark><Point><coordinates>8,47,100</coordinates></Point><TimeSpan><end>2024-01-02T07:00:00Z</end>"
+        "</TimeSpan></Placemark>"
+        "<Placemark><Point><coordinates>8,47.001,100</coordinates></Point><TimeSpan><begin>2024-01-02T07:00:00Z"
+        "</begin></TimeSpan></Placemark>"
+        "<Placemark><Point><coordinates>8,47.002,100</coordinates></Point><TimeSpan><begin>2024-01-02T07:00:05Z"
+        "</begin></TimeSpan></Placemark></kml>");
+    REQUIRE(points.aircraft[0].samples.size() == 2);
+    CHECK(points.aircraft[0].samples[1].time_s == 5.0);
+}
+
+TEST_CASE("an aircraft with a single place in an ACMI recording stands there until it is taken away") {
+    const TrackRecording parked =
+        recorded("FileType=text/acmi/tacview\nFileVersion=2.2\n#0\n"
+                 "1,T=8|47|500,Type=Air+FixedWing,Name=A\n2,T=8.001|47|500,Type=Air+FixedWing\n"
+                 "#5\n1,T=8.01||\n#9\n-2\n1,T=8.02||\n#20\n1,T=8.03||\n");
+    REQUIRE(parked.aircraft.size() == 2);
+    CHECK(parked.aircraft[1].samples.size() == 2);
+    CHECK(parked.aircraft[1].samples[1].time_s == 9.0);
+    CHECK(parked.aircraft[1].samples[1].position_m == parked.aircraft[1].samples[0].position_m);
 }
 
 TEST_CASE("a flight data recorder file of the first versions has DATA rows, its clock and true headings") {
@@ -177,7 +218,8 @@ TEST_CASE("ArduPilot's logs are read by the formats that they describe, binary a
         CHECK(std::isnan(samples[2].roll_rad)); // no attitude follows
     }
     CHECK_THAT(notes_in(recorded(log)), Contains("left out 4 bytes between the messages"));
-    CHECK_THROWS_WITH(recorded(log.substr(0, 178)), "track: expected places (POS or GPS messages), got none");
+    CHECK_THROWS_WITH(
+        recorded(log.substr(0, 178)), "track: expected places on the earth (POS or GPS messages with a fix), got none");
 }
 
 TEST_CASE("magnetic headings become true by how the way over the ground differs from them") {
@@ -241,4 +283,6 @@ TEST_CASE("text in UTF-16 is read, binary data of no format are refused") {
     CHECK(recorded(wide).aircraft[0].samples.size() == 2);
     CHECK_THROWS_WITH(recorded("time,lat" + std::string(3, '\0') + "x"),
         "track: expected text or a known format of flight recordings, got binary data");
+    CHECK_THROWS_WITH(recorded(std::string("\x89PNG\r\n\x1A\n\0\0", 10)),
+        "track: expected text or a known format of flight recordings, got a PNG picture");
 }

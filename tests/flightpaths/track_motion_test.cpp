@@ -1,3 +1,4 @@
+#include "flightpaths/recorded_track.h"
 #include "flightpaths/track_motion.h"
 #include "flightpaths/track_recording.h"
 #include "sim/base/axes.h"
@@ -93,6 +94,75 @@ TEST_CASE("attitudes that some samples have are taken there, and lead to what is
     for (double time_s = 0.0; time_s <= 110.0; time_s += 2.5) {
         CHECK(euler_from_body_to_world(motion.trajectory.state_at(time_s).body_to_world).roll_rad ==
               Approx(0.1).margin(0.01));
+    }
+}
+
+namespace {
+
+/// Samples of a copter that hovers with its nose to the north and is tilted to the east and back by a sine.
+TrackedAircraft swaying_copter() {
+    constexpr double rate_radps = 0.9;
+    TrackedAircraft aircraft =
+        sampled(400, 0.2, [](double time_s) { return glm::dvec3(3.0 * std::sin(rate_radps * time_s), 0.0, 100.0); });
+    aircraft.type = "Air+Rotorcraft";
+    for (TrackSample& sample : aircraft.samples) { sample.heading_rad = 0.0; }
+    return aircraft;
+}
+
+} // namespace
+
+TEST_CASE("a rotor tilts by the measured heading, not by that of the way") {
+    const TrackMotion motion = motion_of(swaying_copter());
+    constexpr double rate_radps = 0.9;
+    double most_roll_deg = 0.0;
+    for (double time_s = 10.0; time_s < 70.0; time_s += 0.1) {
+        const EulerAngles angles = euler_from_body_to_world(motion.trajectory.state_at(time_s).body_to_world);
+        const double pull_mps2 = -3.0 * rate_radps * rate_radps * std::sin(rate_radps * time_s) +
+                                 0.2 * 3.0 * rate_radps * std::cos(rate_radps * time_s); // and drag
+        CHECK(deg_from_rad(angles.roll_rad) == Approx(deg_from_rad(std::atan(pull_mps2 / gravity_mps2))).margin(2.0));
+        CHECK(std::abs(deg_from_rad(angles.pitch_rad)) < 1.0);
+        most_roll_deg = std::max(most_roll_deg, deg_from_rad(angles.roll_rad));
+    }
+    CHECK(most_roll_deg > 10.0);
+}
+
+TEST_CASE("times that a recorder rounds to its clock bring no acceleration that was not there") {
+    TrackedAircraft aircraft =
+        sampled(600, 1.0 / 9.0, [](double time_s) { return glm::dvec3(250.0 * time_s, 0.0, 5000.0 - 80.0 * time_s); });
+    for (TrackSample& sample : aircraft.samples) { sample.time_s = std::round(sample.time_s * 100.0) / 100.0; }
+    const TrackMotion motion = motion_of(aircraft);
+    for (double time_s = 3.0; time_s < 60.0; time_s += 0.1) {
+        const sim::AircraftState state = motion.trajectory.state_at(time_s);
+        const EulerAngles angles = euler_from_body_to_world(state.body_to_world);
+        CHECK(std::abs(deg_from_rad(angles.roll_rad)) < 1.0);
+        CHECK(std::abs(state.load_factor - 1.0) < 0.1);
+    }
+}
+
+TEST_CASE("places whose stated errors are large count little") {
+    TrackedAircraft aircraft = sampled(200, 1.0, [](double time_s) { return glm::dvec3(30.0 * time_s, 0.0, 500.0); });
+    for (std::size_t i = 0; i < aircraft.samples.size(); ++i) {
+        TrackSample& sample = aircraft.samples[i];
+        const bool is_bad = i % 3 == 0;
+        sample.horizontal_error_m = is_bad ? 20.0 : 1.0;
+        sample.position_m.y += is_bad ? (i % 2 == 0 ? 9.0 : -9.0) : (i % 2 == 0 ? 0.3 : -0.3);
+    }
+    const TrackMotion motion = motion_of(aircraft);
+    for (double time_s = 10.0; time_s < 180.0; time_s += 1.0) {
+        CHECK(std::abs(motion.trajectory.state_at(time_s).position_m.y) < 1.0);
+    }
+}
+
+TEST_CASE("an aircraft that is pushed back points against its way") {
+    // 40 m back to the west, half a minute of rest, then forward to the east.
+    const TrackedAircraft aircraft = sampled(260, 1.0, [](double time_s) {
+        const double back_m = 40.0 * std::clamp((time_s - 20.0) / 30.0, 0.0, 1.0);
+        return glm::dvec3(-back_m + 6.0 * std::max(0.0, time_s - 90.0), 0.0, 400.0);
+    });
+    const TrackMotion motion = motion_of(aircraft);
+    for (const double time_s : {5.0, 30.0, 45.0, 70.0, 120.0}) {
+        const EulerAngles angles = euler_from_body_to_world(motion.trajectory.state_at(time_s).body_to_world);
+        CHECK(std::abs(wrapped_to_pi(angles.heading_rad - 0.5 * pi)) < 0.2);
     }
 }
 
