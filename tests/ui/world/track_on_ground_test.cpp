@@ -78,8 +78,9 @@ TEST_CASE("a landing that was recorded 12 m below the ground in coarse heights e
     }
     CHECK(std::abs(path.state_at(155.5).velocity_mps.z) < 1.0);
     CHECK(has_note(world, "laid onto the ground"));
-    REQUIRE(world.flight.ground_contact.contacts.size() == 1);
-    CHECK(world.flight.ground_contact.contacts[0].added_from_m == Approx(12.6 + stands_m).margin(2.0));
+    REQUIRE(world.flight.ground_contacts.size() == 1);
+    REQUIRE(world.flight.ground_contacts[0].contacts.size() == 1);
+    CHECK(world.flight.ground_contacts[0].contacts[0].added_from_m == Approx(12.6 + stands_m).margin(2.0));
 }
 
 TEST_CASE("of a track that begins off the map only what is flown must touch it, and --over-map finds that part") {
