@@ -40,7 +40,9 @@ public:
     }
 
     PathPhases found(std::string_view type) {
-        const bool hovers = hovers_by_type(type) || (leaves_or_lands_on_the_spot() && !runs_to_fly());
+        // Gliders climb on one spot against the wind.
+        const bool is_glider = type.find("Glider") != type.npos;
+        const bool hovers = hovers_by_type(type) || (!is_glider && leaves_or_lands_on_the_spot() && !runs_to_fly());
         std::vector<bool> on_ground = hovers ? ground_of_rotorcraft() : ground_of_fixed_wing();
         for (std::size_t i = 0; i < on_ground.size(); ++i) {
             if (path_.contacts[i] == GroundContact::OnGround) { on_ground[i] = true; }

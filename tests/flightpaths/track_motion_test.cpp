@@ -170,6 +170,14 @@ TEST_CASE(
     std::erase_if(gap.samples, [](const TrackSample& sample) { return sample.time_s > 40.0 && sample.time_s < 60.0; });
     for (TrackSample& sample : gap.samples) { sample.time_s += sample.time_s > 40.0 ? 280.0 : 0.0; }
     CHECK_FALSE(motion_of(gap).inference.hovers);
+    // A paraglider that stands against the wind and climbs; without its type it may as well be a drone.
+    TrackedAircraft against_wind = sampled(300, 1.0, [](double time_s) {
+        const double away_m = 9.0 * std::max(0.0, time_s - 150.0);
+        return glm::dvec3(away_m, 0.0, 800.0 + 1.5 * std::min(time_s, 150.0));
+    });
+    CHECK(motion_of(against_wind).inference.hovers);
+    against_wind.type = "Air+Glider";
+    CHECK_FALSE(motion_of(against_wind).inference.hovers);
 }
 
 TEST_CASE("an aircraft that is pushed back points against its way") {
