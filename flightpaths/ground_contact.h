@@ -1,6 +1,6 @@
 #pragma once
 
-#include "flightpaths/track_motion.h"
+#include "flightpaths/track_inference.h"
 #include "sim/base/axes.h"
 #include "sim/trajectory.h"
 

@@ -109,6 +109,7 @@ TrackRecording igc_recording(const TrackSource& source) {
     std::optional<double> day_s;
     FixTable fixes("IGC", source.file);
     FixSeries& series = fixes.series("");
+    series.type = "Air+Glider"; // or a paraglider; powered aircraft have such recorders seldom, rotorcraft do not
     for (std::size_t i = 0; i < lines.size(); ++i) {
         if (lines[i].starts_with('B')) { records.emplace_back(static_cast<int>(i) + 1, igc_fix_of(lines[i])); }
         if (!day_s) { day_s = day_of(lines[i]); }

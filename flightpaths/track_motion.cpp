@@ -149,6 +149,7 @@ PathKinematics kinematics_of(const SmoothedPlaces& places, Samples samples) {
         path.velocities_mps.push_back(places.velocity_mps(i));
         path.accelerations_mps2.push_back(places.acceleration_mps2(i));
         const std::size_t sample = places.samples[i];
+        path.filled.push_back(sample == SmoothedPlaces::no_sample);
         path.contacts.push_back(sample == SmoothedPlaces::no_sample ? GroundContact::Unknown : samples[sample].contact);
     }
     fill_contacts(places, path.contacts);

@@ -40,7 +40,9 @@ public:
     }
 
     PathPhases found(std::string_view type) {
-        const bool hovers = hovers_by_type(type) || (leaves_or_lands_on_the_spot() && !runs_to_fly());
+        // Gliders climb on one spot against the wind.
+        const bool is_glider = type.find("Glider") != type.npos;
+        const bool hovers = hovers_by_type(type) || (!is_glider && leaves_or_lands_on_the_spot() && !runs_to_fly());
         std::vector<bool> on_ground = hovers ? ground_of_rotorcraft() : ground_of_fixed_wing();
         for (std::size_t i = 0; i < on_ground.size(); ++i) {
             if (path_.contacts[i] == GroundContact::OnGround) { on_ground[i] = true; }
@@ -68,18 +70,21 @@ private:
         return height_m(run.begin) + sum / static_cast<double>(run.end - run.begin);
     }
 
-    /// Whether it climbs or sinks at less than a fast run by more than it moves over the ground.
+    bool is_recorded(std::size_t at) const { return path_.filled.empty() || !path_.filled[at]; }
+
+    /// Whether it climbs or sinks at less than a fast run by more than it moves over the ground; what it does in a gap
+    /// nobody knows.
     bool leaves_or_lands_on_the_spot() const {
         constexpr double slow_mps = 5.0;
         constexpr double look_s = 30.0;
         const double least_m = std::max(8.0, 6.0 * path_.vertical_error_m);
         double next_s = path_.times_s.front();
         for (std::size_t i = 0; i < speeds_mps_.size(); ++i) {
-            if (path_.times_s[i] < next_s) { continue; }
+            if (path_.times_s[i] < next_s || !is_recorded(i)) { continue; }
             next_s = path_.times_s[i] + 1.0;
             double way_m = 0.0;
-            for (std::size_t k = i + 1;
-                 k < speeds_mps_.size() && speeds_mps_[k] < slow_mps && path_.times_s[k] < path_.times_s[i] + look_s;
+            for (std::size_t k = i + 1; k < speeds_mps_.size() && is_recorded(k) && speeds_mps_[k] < slow_mps &&
+                                        path_.times_s[k] < path_.times_s[i] + look_s;
                  ++k) {
                 way_m += glm::distance(glm::dvec2(path_.positions_m[k]), glm::dvec2(path_.positions_m[k - 1]));
                 const double climb_m = std::abs(height_m(k) - height_m(i));
@@ -113,6 +118,10 @@ private:
         std::optional<std::size_t> last;
         constexpr int enough = 64;
         for (std::size_t i = 0; i < speeds_mps_.size() && level + others < enough; ++i) {
+            if (!is_recorded(i)) {
+                last.reset();
+                continue;
+            }
             const bool slow = speeds_mps_[i] < rolling_mps;
             if (!slow && speeds_mps_[i] < fast_mps) { continue; }
             if (last && slow != (speeds_mps_[*last] < rolling_mps)) {

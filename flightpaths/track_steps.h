@@ -1,7 +1,7 @@
 #pragma once
 
 #include "flightpaths/motion_smoother.h"
-#include "flightpaths/track_motion.h"
+#include "flightpaths/track_inference.h"
 #include "flightpaths/track_recording.h"
 #include "sim/base/axes.h"
 
@@ -84,6 +84,8 @@ struct PathKinematics {
     std::vector<glm::dvec3> velocities_mps;
     std::vector<glm::dvec3> accelerations_mps2;
     std::vector<GroundContact> contacts;
+    /// Whether nothing was recorded there: a time within a gap. Empty where all were.
+    std::vector<bool> filled;
     /// Standard deviation of heights that were measured.
     double vertical_error_m = 0.0;
 };

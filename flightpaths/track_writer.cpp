@@ -71,18 +71,30 @@ std::string acmi_transform(const sim::AircraftState& state, const EarthFrame& fr
 
 } // namespace
 
-std::string track_csv_names() {
-    return "t_s,north_m,east_m,alt_m,roll_deg,pitch_deg,yaw_deg,tas_mps,n_g,"
-           "v_north_mps,v_east_mps,v_up_mps\n";
+namespace {
+
+/// A field of a table, in quotes.
+std::string csv_text(std::string_view text) {
+    std::string out = "\"";
+    for (const char c : text) { out += static_cast<unsigned char>(c) < 0x20 || c == '"' ? ' ' : c; }
+    return out + "\"";
 }
 
-std::string track_csv_line(const sim::AircraftState& state) {
+} // namespace
+
+std::string track_csv_names(bool of_several) {
+    return fmt::format("t_s,north_m,east_m,alt_m,roll_deg,pitch_deg,yaw_deg,tas_mps,n_g,"
+                       "v_north_mps,v_east_mps,v_up_mps{}\n",
+        of_several ? ",aircraft" : "");
+}
+
+std::string track_csv_line(const sim::AircraftState& state, const std::optional<std::string>& aircraft) {
     const EulerAngles angles = euler_from_body_to_world(state.body_to_world);
-    return fmt::format("{},{},{},{},{},{},{},{},{},{},{},{}\n", fixed(state.time_s, 6), fixed(state.position_m.y, 4),
+    return fmt::format("{},{},{},{},{},{},{},{},{},{},{},{}{}\n", fixed(state.time_s, 6), fixed(state.position_m.y, 4),
         fixed(state.position_m.x, 4), fixed(state.position_m.z, 4), fixed(deg_from_rad(angles.roll_rad), 4),
         fixed(deg_from_rad(angles.pitch_rad), 4), compass(angles.heading_rad, 4),
         fixed(glm::length(state.velocity_mps), 4), fixed(state.load_factor, 4), fixed(state.velocity_mps.y, 4),
-        fixed(state.velocity_mps.x, 4), fixed(state.velocity_mps.z, 4));
+        fixed(state.velocity_mps.x, 4), fixed(state.velocity_mps.z, 4), aircraft ? "," + csv_text(*aircraft) : "");
 }
 
 namespace {
@@ -108,32 +120,18 @@ std::vector<SampleOfSeveral> in_order_of_time(const sim::Trajectory& first, std:
     return all;
 }
 
-/// A field of a table, in quotes.
-std::string csv_text(std::string_view text) {
-    std::string out = "\"";
-    for (const char c : text) { out += static_cast<unsigned char>(c) < 0x20 || c == '"' ? ' ' : c; }
-    return out + "\"";
-}
-
 } // namespace
 
 std::string track_csv(
     const sim::Trajectory& trajectory, const std::string& name, std::span<const WrittenTrack> others) {
-    std::string text = track_csv_names();
+    std::string text = track_csv_names(!others.empty());
     if (others.empty()) {
         for (const sim::AircraftState& state : trajectory.samples()) { text += track_csv_line(state); }
         return text;
     }
-    const auto add = [&](std::string line, std::string_view field) {
-        line.pop_back();
-        text += line + "," + std::string(field) + "\n";
-    };
-    text.clear();
-    add(track_csv_names(), "aircraft");
     for (const SampleOfSeveral& at : in_order_of_time(trajectory, others)) {
         const sim::Trajectory& path = at.aircraft == 0 ? trajectory : *others[at.aircraft - 1].trajectory;
-        add(track_csv_line(path.samples()[at.sample]),
-            csv_text(at.aircraft == 0 ? name : others[at.aircraft - 1].name));
+        text += track_csv_line(path.samples()[at.sample], at.aircraft == 0 ? name : others[at.aircraft - 1].name);
     }
     return text;
 }
@@ -166,30 +164,27 @@ std::string acmi_state(const sim::AircraftState& state, const AcmiHeader& header
         fixed(glm::length(state.velocity_mps), 1));
 }
 
-namespace {
-
-/// A state of another aircraft, with its end after the last one.
 std::string acmi_state_of_other(
-    const WrittenTrack& other, std::size_t number, std::size_t sample, const EarthFrame& frame) {
-    const auto samples = other.trajectory->samples();
-    const sim::AircraftState& state = samples[sample];
-    std::string text =
-        fmt::format("#{}\n{:x},{}{},TAS={}\n", fixed(state.time_s, 3), number, acmi_transform(state, frame),
-            sample == 0 ? "," + properties_of(other.kind, other.name, other.name) + ",Color=Red" : "",
-            fixed(glm::length(state.velocity_mps), 1));
-    if (sample + 1 == samples.size()) { text += fmt::format("-{:x}\n", number); }
-    return text;
+    const sim::AircraftState& state, std::size_t number, const EarthFrame* frame, const WrittenTrack* introduced) {
+    return fmt::format("#{}\n{:x},{}{},TAS={}\n", fixed(state.time_s, 3), number,
+        acmi_transform(state, frame_or_at_zero(frame)),
+        introduced != nullptr ? "," + properties_of(introduced->kind, introduced->name, introduced->name) + ",Color=Red"
+                              : "",
+        fixed(glm::length(state.velocity_mps), 1));
 }
 
-} // namespace
+std::string acmi_end_of_other(std::size_t number) { return fmt::format("-{:x}\n", number); }
 
 std::string track_acmi(const sim::Trajectory& trajectory, const AcmiHeader& header) {
     std::string text = acmi_head(header);
     auto bookmark = header.bookmarks.begin();
     for (const SampleOfSeveral& at : in_order_of_time(trajectory, header.others)) {
         if (at.aircraft > 0) {
+            const WrittenTrack& other = header.others[at.aircraft - 1];
+            const auto samples = other.trajectory->samples();
             text += acmi_state_of_other(
-                header.others[at.aircraft - 1], at.aircraft + 1, at.sample, frame_or_at_zero(header.frame));
+                samples[at.sample], at.aircraft + 1, header.frame, at.sample == 0 ? &other : nullptr);
+            if (at.sample + 1 == samples.size()) { text += acmi_end_of_other(at.aircraft + 1); }
             continue;
         }
         const sim::AircraftState& state = trajectory.samples()[at.sample];

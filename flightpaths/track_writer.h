@@ -5,6 +5,8 @@
 #include "sim/base/earth_frame.h"
 #include "sim/trajectory.h"
 
+#include <cstddef>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -13,7 +15,7 @@ namespace octant::flightpaths {
 
 /// Another aircraft of a flight, on its clock.
 struct WrittenTrack {
-    /// Not null.
+    /// Null only for aircraft whose states are written one by one.
     const sim::Trajectory* trajectory = nullptr;
     /// Its type; null if unknown.
     const sim::AircraftKind* kind = nullptr;
@@ -28,9 +30,9 @@ struct WrittenTrack {
 std::string track_csv(
     const sim::Trajectory& trajectory, const std::string& name = {}, std::span<const WrittenTrack> others = {});
 
-/// The line of column names, and the line of a state.
-std::string track_csv_names();
-std::string track_csv_line(const sim::AircraftState& state);
+/// The line of column names, and the line of a state; with the column `aircraft` where a name is given.
+std::string track_csv_names(bool of_several = false);
+std::string track_csv_line(const sim::AircraftState& state, const std::optional<std::string>& aircraft = std::nullopt);
 
 /// A flight as comma-separated text that repeats it: t_s, north_m, east_m, alt_m, v_north_mps, v_east_mps, v_up_mps,
 /// n_g, q_w, q_x, q_y, q_z, each number with as many digits as it takes. read_recorded_track gives the same states back
@@ -60,5 +62,12 @@ std::string track_acmi(const sim::Trajectory& trajectory, const AcmiHeader& head
 /// The head of the file, and the lines of one state without bookmarks; the first state has more of them.
 std::string acmi_head(const AcmiHeader& header);
 std::string acmi_state(const sim::AircraftState& state, const AcmiHeader& header, bool is_first);
+
+/// The lines of a state of another aircraft, the first of which is number 2. `introduced`: for its first state.
+std::string acmi_state_of_other(
+    const sim::AircraftState& state, std::size_t number, const EarthFrame* frame, const WrittenTrack* introduced);
+
+/// The line after the last state of an aircraft.
+std::string acmi_end_of_other(std::size_t number);
 
 } // namespace octant::flightpaths

@@ -153,6 +153,33 @@ TEST_CASE("places whose stated errors are large count little") {
     }
 }
 
+TEST_CASE(
+    "an aircraft that took off in a gap of its recording, or whose height drifted while parked, is no helicopter") {
+    // Parked with heights that begin 20 m too high and drift to the right one, then a run at one height and flight.
+    TrackedAircraft drifting = sampled(300, 1.0, [](double time_s) {
+        const double run_s = std::max(0.0, time_s - 180.0);
+        const double drift_m = std::max(0.0, 20.0 - time_s / 3.0);
+        const double way_m = run_s < 30.0 ? run_s * run_s : 900.0 + 60.0 * (run_s - 30.0);
+        return glm::dvec3(way_m, 0.0, 100.0 + drift_m + 5.0 * std::max(0.0, run_s - 30.0));
+    });
+    CHECK_FALSE(motion_of(drifting).inference.hovers);
+    // Parked, no sample for five minutes, then in flight overhead.
+    TrackedAircraft gap = sampled(200, 2.0, [](double time_s) {
+        return time_s < 40.0 ? glm::dvec3(0.0, 0.0, 10.0) : glm::dvec3(100.0 * (time_s - 60.0), 0.0, 1500.0);
+    });
+    std::erase_if(gap.samples, [](const TrackSample& sample) { return sample.time_s > 40.0 && sample.time_s < 60.0; });
+    for (TrackSample& sample : gap.samples) { sample.time_s += sample.time_s > 40.0 ? 280.0 : 0.0; }
+    CHECK_FALSE(motion_of(gap).inference.hovers);
+    // A paraglider that stands against the wind and climbs; without its type it may as well be a drone.
+    TrackedAircraft against_wind = sampled(300, 1.0, [](double time_s) {
+        const double away_m = 9.0 * std::max(0.0, time_s - 150.0);
+        return glm::dvec3(away_m, 0.0, 800.0 + 1.5 * std::min(time_s, 150.0));
+    });
+    CHECK(motion_of(against_wind).inference.hovers);
+    against_wind.type = "Air+Glider";
+    CHECK_FALSE(motion_of(against_wind).inference.hovers);
+}
+
 TEST_CASE("an aircraft that is pushed back points against its way") {
     // 40 m back to the west, half a minute of rest, then forward to the east.
     const TrackedAircraft aircraft = sampled(260, 1.0, [](double time_s) {

@@ -1,5 +1,6 @@
 #include "ui/flight/flight_recorder.h"
 
+#include "flightpaths/limits_check.h"
 #include "flightpaths/track_writer.h"
 #include "sim/base/error.h"
 #include "sim/base/output_file.h"
@@ -25,7 +26,9 @@
 #include <limits>
 #include <list>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <set>
+#include <span>
 #include <string>
 #include <string_view>
 #include <system_error>
@@ -177,6 +180,9 @@ public:
 
     virtual void finish(const Session& session, double flown_until_s) = 0;
 
+    /// What the report should say that nobody knew before the flight.
+    virtual std::vector<std::string> notes() const { return {}; }
+
 private:
     virtual void append(const Session& session, double time_s) = 0;
     virtual void flush() = 0;
@@ -235,27 +241,93 @@ private:
 };
 
 /// The tracks of a flight that others fly, which nobody knows beforehand: track.csv has the states of all pictures,
-/// track.acmi those since the first aircraft is flown, as its place on the earth is known by then.
+/// track.acmi those since the first aircraft is flown, as its place on the earth is known by then. Other aircraft are
+/// there while somebody flies them.
 class LiveTracks final : public TrackFiles {
 public:
     LiveTracks(const std::filesystem::path& folder, const world::World& world)
         : csv_(folder / "track.csv"), acmi_(folder / "track.acmi"),
-          header_(acmi_header(world, world.flight.trajectory, nullptr)) {
-        csv_.append(flightpaths::track_csv_names());
+          header_(acmi_header(world, world.flight.trajectory, nullptr)), aircraft_(world.scene.aircraft.size()) {
+        const std::vector<std::string>& shapes = world.aircraft.inputs.shapes;
+        for (std::size_t i = 0; i < aircraft_.size(); ++i) {
+            aircraft_[i].written = {.kind = i == 0              ? world.leader_kind
+                                            : i < shapes.size() ? sim::find_aircraft_kind(shapes[i])
+                                                                : nullptr,
+                .name = i == 0 ? leader_name(world) : fmt::format("aircraft {}", i + 1)};
+        }
+        if (aircraft_.size() > 1) { header_.call_sign = aircraft_.front().written.name; }
+        csv_.append(flightpaths::track_csv_names(aircraft_.size() > 1));
     }
 
     void finish(const Session& /*session*/, double /*flown_until_s*/) override { flush(); }
 
+    /// Of each aircraft of a known type that was flown beyond its limits.
+    std::vector<std::string> notes() const override {
+        std::vector<std::string> notes;
+        for (const LiveAircraft& one : aircraft_) {
+            if (one.written.kind == nullptr || one.flown.size() < 2) { continue; }
+            const std::string beyond =
+                flightpaths::limits_violation(one.written.kind->limits, sim::Trajectory(one.flown), false);
+            if (!beyond.empty()) {
+                notes.push_back(fmt::format(
+                    "{}, a {} is flown beyond its limits: {}", one.written.name, one.written.kind->name, beyond));
+            }
+        }
+        return notes;
+    }
+
 private:
+    struct LiveAircraft {
+        flightpaths::WrittenTrack written;
+        /// For its limits: ten a second, of the first hours.
+        std::vector<sim::AircraftState> flown;
+        bool is_there = false;
+    };
+
     void append(const Session& session, double /*time_s*/) override {
         const StateSource& source = session.simulation().source();
-        const sim::AircraftState& state = session.states().front();
-        csv_.append(flightpaths::track_csv_line(state));
+        const std::span<const sim::AircraftState> states = session.states();
         header_.frame = source.frame();
-        if (is_flown_ || source.is_flown(0)) {
-            const bool is_first = !std::exchange(is_flown_, true);
-            acmi_.append(is_first ? flightpaths::acmi_head(header_) : std::string());
-            acmi_.append(flightpaths::acmi_state(state, header_, is_first));
+        for (std::size_t i = 0; i < std::min(states.size(), aircraft_.size()); ++i) {
+            LiveAircraft& one = aircraft_[i];
+            const bool is_flown = source.is_flown(i) && (i == 0 || states[i].is_present);
+            if (i == 0 || is_flown) {
+                csv_.append(flightpaths::track_csv_line(
+                    states[i], aircraft_.size() > 1 ? std::optional(one.written.name) : std::nullopt));
+            }
+            if (is_flown) { keep(states[i], one.flown); }
+            if (i == 0) {
+                append_first(states[i], is_flown);
+            } else if (aircraft_.front().is_there) {
+                append_other(states[i], i, is_flown);
+            }
+        }
+    }
+
+    void append_first(const sim::AircraftState& state, bool is_flown) {
+        bool& is_there = aircraft_.front().is_there;
+        if (!is_there && !is_flown) { return; }
+        const bool is_first = !std::exchange(is_there, true);
+        acmi_.append(is_first ? flightpaths::acmi_head(header_) : std::string());
+        acmi_.append(flightpaths::acmi_state(state, header_, is_first));
+    }
+
+    void append_other(const sim::AircraftState& state, std::size_t index, bool is_flown) {
+        LiveAircraft& one = aircraft_[index];
+        const bool was_there = std::exchange(one.is_there, is_flown);
+        if (is_flown) {
+            acmi_.append(
+                flightpaths::acmi_state_of_other(state, index + 1, header_.frame, was_there ? nullptr : &one.written));
+        } else if (was_there) {
+            acmi_.append(flightpaths::acmi_end_of_other(index + 1));
+        }
+    }
+
+    static void keep(const sim::AircraftState& state, std::vector<sim::AircraftState>& flown) {
+        constexpr double step_s = 0.1;
+        constexpr std::size_t most = 100000;
+        if (flown.size() < most && (flown.empty() || state.time_s >= flown.back().time_s + step_s)) {
+            flown.push_back(state);
         }
     }
 
@@ -267,7 +339,7 @@ private:
     AppendedFile csv_;
     AppendedFile acmi_;
     flightpaths::AcmiHeader header_;
-    bool is_flown_ = false;
+    std::vector<LiveAircraft> aircraft_;
 };
 
 std::string adaptation_text(const StressSettings& stress) {
@@ -319,7 +391,8 @@ report::RunInfo run_info(
     }
     for (const flightpaths::LegStart& leg : flight.legs) { info.legs.push_back({leg.label, leg.time_s}); }
     if (flight.recording) {
-        const world::NamedTexts facts = world::track_facts(*flight.recording, flight.inferences);
+        const world::NamedTexts facts =
+            world::track_facts(*flight.recording, flight.inferences, flight.ground_contacts);
         info.facts.insert(info.facts.end(), facts.begin(), facts.end());
     }
     info.notes = session.world().notes;
@@ -415,8 +488,11 @@ FlightResult FlightRecorder::finish(const Session& session, const std::string& s
         }
     }
     if (recording_) {
-        end.statistics = recording_->finish({end.state_hash, end.picture_hash, report::read_cpu_times(),
-            visuals::groundfile::tile_damage_messages(), stopped});
+        std::vector<std::string> notes = visuals::groundfile::tile_damage_messages();
+        const std::vector<std::string> of_tracks = tracks_->notes();
+        notes.insert(notes.end(), of_tracks.begin(), of_tracks.end());
+        end.statistics =
+            recording_->finish({end.state_hash, end.picture_hash, report::read_cpu_times(), std::move(notes), stopped});
         slow_pictures_.write(*options_.folder);
         tracks_->finish(session, flown_until_s_);
         tracks_.reset();

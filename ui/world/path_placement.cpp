@@ -239,15 +239,16 @@ void keep_part_over_map(const settings::RunSettings& settings, const PlacementGr
 }
 
 /// Lays the aircraft of a recording onto the ground over which they were flown, unless the settings say how heights are
-/// meant. Returns what was done to the first one.
-flightpaths::GroundContactReport lay_on_ground(const settings::RunSettings& settings, const PlacementGround& ground,
-    const flightpaths::PlacementOptions& placement, LoadedPath& loaded, std::vector<std::string>& notes) {
+/// meant. Returns what was done to each.
+std::vector<flightpaths::GroundContactReport> lay_on_ground(const settings::RunSettings& settings,
+    const PlacementGround& ground, const flightpaths::PlacementOptions& placement, LoadedPath& loaded,
+    std::vector<std::string>& notes) {
     if (!has_own_origin(settings, loaded, ground) || placement.mode != sim::HeightMode::Datum ||
         settings.path.height_mode || placement.heading_rad != 0.0) {
         return {};
     }
     const GroundHeight below = ground_below(ground, placement.place_m);
-    flightpaths::GroundContactReport first;
+    std::vector<flightpaths::GroundContactReport> reports;
     for (std::size_t i = 0; i < loaded.inferences.size() && i <= loaded.others.size(); ++i) {
         sim::Trajectory& track = i == 0 ? loaded.trajectory : loaded.others[i - 1].trajectory;
         const auto heights = loaded.recording->aircraft[i].heights;
@@ -259,12 +260,10 @@ flightpaths::GroundContactReport lay_on_ground(const settings::RunSettings& sett
             .to_s = i == 0 ? placement.to_s : track.end_s()};
         flightpaths::LaidTrack laid = flightpaths::laid_on_ground(track, loaded.inferences[i], below, options);
         track = std::move(laid.trajectory);
-        if (i == 0) {
-            first = std::move(laid.report);
-            add(notes, laid.notes);
-        }
+        reports.push_back(std::move(laid.report));
+        if (i == 0) { add(notes, laid.notes); }
     }
-    return first;
+    return reports;
 }
 
 /// Aircraft of an ACMI recording may stand on a ground that lies a little lower than ours: where the path meets our
@@ -334,13 +333,13 @@ PlacedFlight live_flight(const settings::RunSettings& settings, const PlacementG
         .rate_hz = usual_rate_hz,
         .place_m = place_m,
         .lowest_clearance_m = above_ground_m,
-        .ground_contact = {},
         .legs = {},
         .name = {},
         .other_trajectories = {},
         .other_names = {},
         .recording = {},
-        .inferences = {}};
+        .inferences = {},
+        .ground_contacts = {}};
 }
 
 PlacedFlight place_flight(const settings::RunSettings& settings, LoadedPath loaded, const PlacementGround& ground,
@@ -360,7 +359,7 @@ PlacedFlight place_flight(const settings::RunSettings& settings, LoadedPath load
     } else if (settings.path.over_map) {
         keep_part_over_map(settings, ground, placement.place_m, loaded, notes);
     }
-    flightpaths::GroundContactReport contact = lay_on_ground(settings, ground, placement, loaded, notes);
+    std::vector<flightpaths::GroundContactReport> contacts = lay_on_ground(settings, ground, placement, loaded, notes);
     flightpaths::PlacedPath path = placed_by_name(path_of(settings), loaded, placement, ground);
     const FlownPart flown = flown_part(settings.time, path.trajectory);
     add(notes, path.notes);
@@ -382,13 +381,13 @@ PlacedFlight place_flight(const settings::RunSettings& settings, LoadedPath load
         .lowest_clearance_s = path.lowest_clearance_at_s,
         .flown_from_s = flown.from_s,
         .flown_to_s = flown.to_s,
-        .ground_contact = std::move(contact),
         .legs = std::move(loaded.legs),
         .name = std::move(loaded.name),
         .other_trajectories = std::move(other_trajectories),
         .other_names = std::move(other_names),
         .recording = std::move(loaded.recording),
-        .inferences = std::move(loaded.inferences)};
+        .inferences = std::move(loaded.inferences),
+        .ground_contacts = std::move(contacts)};
 }
 
 sim::Trajectory own_path(const settings::RunSettings& settings, const settings::AircraftEntry& flown,

@@ -42,8 +42,6 @@ struct PlacedFlight {
     /// What is flown of it; the rest may leave the map.
     double flown_from_s = 0.0;
     double flown_to_s = 0.0;
-    /// What laying the track onto the ground did to its heights.
-    flightpaths::GroundContactReport ground_contact{};
     std::vector<flightpaths::LegStart> legs;
     /// The first aircraft's name in its recording; empty where there is none.
     std::string name;
@@ -55,6 +53,8 @@ struct PlacedFlight {
     /// What the first aircraft's file holds, and what was made of each of its aircraft; null for a path script.
     std::shared_ptr<const flightpaths::TrackRecording> recording;
     std::vector<flightpaths::TrackInference> inferences;
+    /// What laying each of these aircraft onto the ground did to its heights; none where nothing was laid.
+    std::vector<flightpaths::GroundContactReport> ground_contacts;
 };
 
 /// Where --place puts the path's origin, metres east and north of the map centre. Two numbers are degrees when they

@@ -11,6 +11,7 @@
 #include <cstddef>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <optional>
 #include <utility>
 
 namespace octant::ui::world {
@@ -131,40 +132,70 @@ std::string measured_text(const TrackedAircraft& aircraft) {
     return fmt::format("{}", fmt::join(parts, ", "));
 }
 
-std::string inferred_text(const flightpaths::TrackInference& inference) {
-    std::string text = fmt::format("velocity {}, heading {}, pitch and roll {}", origin_text(inference.velocity),
-        origin_text(inference.heading), origin_text(inference.pitch_roll));
+NamedTexts inferred_facts(const flightpaths::TrackInference& inference) {
+    NamedTexts facts{{"velocity", origin_text(inference.velocity)}, {"heading", origin_text(inference.heading)},
+        {"pitch and roll", origin_text(inference.pitch_roll)}};
     if (inference.horizontal_error_m > 0.0) {
-        text += fmt::format(
-            "; errors found: {:.1f} m, heights {:.1f} m", inference.horizontal_error_m, inference.vertical_error_m);
+        facts.emplace_back("errors found",
+            fmt::format("places {:.1f} m, heights {:.1f} m{}", inference.horizontal_error_m, inference.vertical_error_m,
+                inference.height_step_m > 0.0 ? fmt::format(" in steps of {:.2f} m", inference.height_step_m) : ""));
     }
-    if (inference.height_step_m > 0.0) {
-        text += fmt::format("; heights in steps of {:.2f} m", inference.height_step_m);
-    }
-    if (inference.hovers) { text += "; flown as one that hovers"; }
+    if (inference.hovers) { facts.emplace_back("flown as", "one that hovers"); }
     std::vector<std::string> phases;
     for (const flightpaths::PhaseSpan& span : inference.phases) {
         constexpr std::size_t most = 12;
         if (phases.size() == most) {
-            phases.emplace_back("...");
+            phases.push_back(fmt::format("{} more", inference.phases.size() - most));
             break;
         }
         phases.push_back(fmt::format("{} from {:.0f} s", flightpaths::name_of(span.phase), span.from_s));
     }
-    if (!phases.empty()) { text += fmt::format("; {}", fmt::join(phases, ", ")); }
+    if (!phases.empty()) { facts.emplace_back("phases", fmt::format("{}", fmt::join(phases, ", "))); }
     if (!inference.winds.empty()) {
         glm::dvec2 sum_mps(0.0);
         for (const auto& wind : inference.winds) { sum_mps += wind.wind_mps; }
         const glm::dvec2 mean_mps = sum_mps / static_cast<double>(inference.winds.size());
         const double from_deg = deg_from_rad(std::atan2(-mean_mps.x, -mean_mps.y));
-        text += fmt::format("; wind {:.1f} m/s from {:03.0f} degrees", glm::length(mean_mps),
-            from_deg < 0.0 ? from_deg + 360.0 : from_deg);
+        facts.emplace_back(
+            "wind", fmt::format("{:.1f} m/s from {:03.0f} degrees in the mean of {} stretches", glm::length(mean_mps),
+                        from_deg < 0.0 ? from_deg + 360.0 : from_deg, inference.winds.size()));
     }
-    return text;
+    return facts;
 }
 
-NamedTexts track_facts(
-    const flightpaths::TrackRecording& recording, std::span<const flightpaths::TrackInference> inferences) {
+NamedTexts contact_facts(const flightpaths::GroundContactReport& report) {
+    NamedTexts facts;
+    std::vector<std::string> contacts;
+    for (const flightpaths::GroundContactSpan& span : report.contacts) {
+        constexpr std::size_t most = 12;
+        if (contacts.size() == most) {
+            contacts.push_back(fmt::format("{} more", report.contacts.size() - most));
+            break;
+        }
+        contacts.push_back(fmt::format("{:.0f} s to {:.0f} s, heights changed by {:+.1f} to {:+.1f} m", span.from_s,
+            span.to_s, span.added_from_m, span.added_to_m));
+    }
+    if (!contacts.empty()) { facts.emplace_back("on the ground", fmt::format("{}", fmt::join(contacts, "; "))); }
+    const auto add_setting = [&](const char* name, const std::optional<double>& qnh_hpa) {
+        if (qnh_hpa) { facts.emplace_back(name, fmt::format("{:.1f} hPa", *qnh_hpa)); }
+    };
+    add_setting("altimeter setting at take-off", report.qnh_take_off_hpa);
+    add_setting("altimeter setting at landing", report.qnh_landing_hpa);
+    if (report.lifted_m > 0.0) {
+        facts.emplace_back("lifted over the ground", fmt::format("{:.1f} m", report.lifted_m));
+    }
+    return facts;
+}
+
+std::string text_of_facts(const NamedTexts& facts) {
+    std::vector<std::string> parts;
+    for (const auto& [name, text] : facts) { parts.push_back(fmt::format("{} {}", name, text)); }
+    return fmt::format("{}", fmt::join(parts, "; "));
+}
+
+NamedTexts track_facts(const flightpaths::TrackRecording& recording,
+    std::span<const flightpaths::TrackInference> inferences,
+    std::span<const flightpaths::GroundContactReport> contacts) {
     NamedTexts facts{{"recorded track", recording.format},
         {"track begins",
             recording.begin_utc_s ? utc_text(*recording.begin_utc_s) : "at a time that the file does not tell"},
@@ -175,9 +206,13 @@ NamedTexts track_facts(
         const std::string name = fmt::format("track {}: {}", i + 1, printable(flightpaths::display_name(aircraft, i)));
         std::string text = aircraft_text(aircraft) + "; measured: " + measured_text(aircraft);
         if (i < inferences.size()) {
-            text += "; " + inferred_text(inferences[i]);
+            text += "; " + text_of_facts(inferred_facts(inferences[i]));
             const auto left = inferences[i].rejected + inferences[i].repeated;
             if (left > 0) { text += fmt::format("; {} samples not flown through", left); }
+        }
+        if (i < contacts.size()) {
+            const NamedTexts laid = contact_facts(contacts[i]);
+            if (!laid.empty()) { text += "; " + text_of_facts(laid); }
         }
         for (const TrackGap& gap : gaps_of(aircraft)) {
             text += fmt::format("; gap of {} at {:.0f} s", duration_text(gap.to_s - gap.from_s), gap.from_s);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "flightpaths/ground_contact.h"
 #include "flightpaths/track_motion.h"
 #include "flightpaths/track_recording.h"
 #include "ui/report/track_picture.h"
@@ -35,12 +36,19 @@ std::string measured_text(const flightpaths::TrackedAircraft& aircraft);
 /// The aircraft of a recording for a picture of its track.
 std::vector<report::TrackCurve> track_curves(const flightpaths::TrackRecording& recording);
 
-/// What was made from the samples: "velocity, heading, roll and pitch inferred", "wind ...".
-std::string inferred_text(const flightpaths::TrackInference& inference);
+/// What was made from the samples: where velocity, heading, pitch and roll come from, errors, phases, wind.
+NamedTexts inferred_facts(const flightpaths::TrackInference& inference);
 
-/// What a recorded track holds, of each of its aircraft: format, time, what was measured, inferred and left out.
-/// `inferences`: of each aircraft.
-NamedTexts track_facts(
-    const flightpaths::TrackRecording& recording, std::span<const flightpaths::TrackInference> inferences);
+/// What was done to lay a track on the ground: its times there, altimeter settings; empty where nothing was.
+NamedTexts contact_facts(const flightpaths::GroundContactReport& report);
+
+/// "name text; name text".
+std::string text_of_facts(const NamedTexts& facts);
+
+/// What a recorded track holds, of each of its aircraft: format, time, what was measured, inferred and left out, and
+/// how it was laid on the ground. `inferences`, `contacts`: of each aircraft, or none.
+NamedTexts track_facts(const flightpaths::TrackRecording& recording,
+    std::span<const flightpaths::TrackInference> inferences,
+    std::span<const flightpaths::GroundContactReport> contacts);
 
 } // namespace octant::ui::world

@@ -82,7 +82,8 @@ struct World {
         .other_trajectories = {},
         .other_names = {},
         .recording = {},
-        .inferences = {}};
+        .inferences = {},
+        .ground_contacts = {}};
     visuals::scene::FixedViewpoints points;
     /// The loaded aircraft; `scene` shares their models.
     LoadedAircraft aircraft;

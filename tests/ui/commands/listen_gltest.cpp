@@ -1,3 +1,4 @@
+#include "flightpaths/recorded_track.h"
 #include "sim/base/text_file.h"
 #include "sim/base/units.h"
 #include "sim/links/flightgear_fdm.h"
@@ -137,6 +138,37 @@ TEST_CASE("octant listen shows what comes by UDP, says what is wrong, and is rep
     INFO(replay.err);
     REQUIRE(replay.exit_code == 0);
     CHECK_THAT(replay.out, Contains("same states, same pictures"));
+}
+
+TEST_CASE("a recorded live flight holds every aircraft that was flown, and says which leave their limits") {
+    const fs::path folder = tests::empty_folder("listen-two");
+    const std::uint16_t port = free_port();
+    links::UdpPort first(loopback, 0);
+    links::UdpPort second(loopback, 0);
+    const tests::ProgramRun run =
+        run_beside({"listen", "--aircraft", "f15", "--aircraft", "500md", "--headless", "--size", "64x36", "--seconds",
+                       "3", "--record", (folder / "flight").string()},
+            "fdm", port, [&](int i, double passed_s) {
+                first.send({loopback, port}, links::encode_fdm(fix_at(passed_s)));
+                if (i < 5) { return; } // the first vehicle is the first aircraft
+                links::Fix beside = fix_at(passed_s);
+                beside.longitude_deg += 0.001;
+                second.send({loopback, port}, links::encode_fdm(beside));
+            });
+    INFO(run.err);
+    REQUIRE(run.exit_code == 0);
+    for (const char* name : {"track.csv", "track.acmi"}) {
+        const fs::path file = folder / "flight" / name;
+        const auto recording = flightpaths::parse_track_recording(read_text_file(file), file);
+        REQUIRE(recording.aircraft.size() == 2);
+        for (const auto& aircraft : recording.aircraft) { CHECK(aircraft.samples.size() > 30); }
+        const auto apart_m =
+            recording.aircraft[1].samples.back().position_m.x - recording.aircraft[0].samples.back().position_m.x;
+        CHECK(apart_m == Approx(76.0).margin(10.0));
+    }
+    // 100 m/s are 194 kt.
+    CHECK_THAT(read_text_file(folder / "flight" / "run.json"), Contains("aircraft 2, a 500md is flown beyond"));
+    CHECK_THAT(read_text_file(folder / "flight" / "report.html"), Contains("aircraft 2, a 500md is flown beyond"));
 }
 
 TEST_CASE("octant listen sends on what comes, and nothing while nobody flies") {

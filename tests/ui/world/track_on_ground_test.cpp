@@ -1,7 +1,9 @@
+#include "flightpaths/ground_contact.h"
 #include "sim/base/axes.h"
 #include "sim/base/error.h"
 #include "sim/base/units.h"
 #include "tests/scratch.h"
+#include "ui/world/track_facts.h"
 #include "ui/world/world.h"
 
 #include <catch2/catch.hpp>
@@ -78,8 +80,26 @@ TEST_CASE("a landing that was recorded 12 m below the ground in coarse heights e
     }
     CHECK(std::abs(path.state_at(155.5).velocity_mps.z) < 1.0);
     CHECK(has_note(world, "laid onto the ground"));
-    REQUIRE(world.flight.ground_contact.contacts.size() == 1);
-    CHECK(world.flight.ground_contact.contacts[0].added_from_m == Approx(12.6 + stands_m).margin(2.0));
+    REQUIRE(world.flight.ground_contacts.size() == 1);
+    REQUIRE(world.flight.ground_contacts[0].contacts.size() == 1);
+    CHECK(world.flight.ground_contacts[0].contacts[0].added_from_m == Approx(12.6 + stands_m).margin(2.0));
+    const ui::world::NamedTexts facts =
+        ui::world::track_facts(*world.flight.recording, world.flight.inferences, world.flight.ground_contacts);
+    CHECK_THAT(facts.back().second, Catch::Contains("; velocity measured; ") &&
+                                        Catch::Contains("; on the ground 155 s to 195 s, heights changed by +") &&
+                                        Catch::Contains("; phases flight from 0 s, landing run from 155 s; "));
+}
+
+TEST_CASE("what was done to lay a track on the ground is told with its altimeter settings") {
+    CHECK(ui::world::contact_facts({}).empty());
+    const flightpaths::GroundContactReport report{.contacts = {{0.0, 60.0, 80.0, 81.0}, {900.0, 960.0, 78.0, 77.5}},
+        .qnh_take_off_hpa = 1022.96,
+        .qnh_landing_hpa = 1022.5,
+        .lifted_m = 2.0};
+    CHECK(ui::world::text_of_facts(ui::world::contact_facts(report)) ==
+          "on the ground 0 s to 60 s, heights changed by +80.0 to +81.0 m; 900 s to 960 s, heights changed by +78.0 to "
+          "+77.5 m; altimeter setting at take-off 1023.0 hPa; altimeter setting at landing 1022.5 hPa; lifted over the "
+          "ground 2.0 m");
 }
 
 TEST_CASE("of a track that begins off the map only what is flown must touch it, and --over-map finds that part") {
