@@ -35,7 +35,8 @@
     X(polygon_offset, PolygonOffset) X(program_uniform_4fv, ProgramUniform4fv) X(provoking_vertex, ProvokingVertex) \
     X(read_pixels, ReadPixels) X(scissor, Scissor) X(shader_source, ShaderSource) X(tex_image_2d, TexImage2D) \
     X(texture_parameterf, TextureParameterf) X(texture_parameteri, TextureParameteri) \
-    X(texture_storage_2d, TextureStorage2D) X(texture_sub_image_2d, TextureSubImage2D) X(use_program, UseProgram) \
+    X(texture_storage_2d, TextureStorage2D) X(texture_storage_3d, TextureStorage3D) \
+    X(texture_sub_image_2d, TextureSubImage2D) X(texture_sub_image_3d, TextureSubImage3D) X(use_program, UseProgram) \
     X(vertex_array_attrib_binding, VertexArrayAttribBinding) X(vertex_array_attrib_format, VertexArrayAttribFormat) \
     X(vertex_array_attrib_i_format, VertexArrayAttribIFormat) \
     X(vertex_array_binding_divisor, VertexArrayBindingDivisor) \

@@ -59,9 +59,8 @@ Object make_renderbuffer(const Functions& gl, const char* label) {
     return make_object<&Functions::create_renderbuffers, &Functions::delete_renderbuffers>(gl, GL_RENDERBUFFER, label);
 }
 
-Object make_texture(const Functions& gl, const char* label) {
-    return make_object<&Functions::create_textures, &Functions::delete_textures>(
-        gl, GL_TEXTURE, label, GLenum{GL_TEXTURE_2D});
+Object make_texture(const Functions& gl, const char* label, GLenum target) {
+    return make_object<&Functions::create_textures, &Functions::delete_textures>(gl, GL_TEXTURE, label, target);
 }
 
 Object make_program(

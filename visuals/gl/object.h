@@ -50,8 +50,8 @@ Object make_buffer(const Functions& gl, const char* label);
 Object make_framebuffer(const Functions& gl, const char* label);
 Object make_renderbuffer(const Functions& gl, const char* label);
 
-/// A two-dimensional one.
-Object make_texture(const Functions& gl, const char* label);
+/// `target`: GL_TEXTURE_2D or GL_TEXTURE_3D.
+Object make_texture(const Functions& gl, const char* label, GLenum target = GL_TEXTURE_2D);
 
 /// The texts of a program's shaders.
 struct ProgramText {

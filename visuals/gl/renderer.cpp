@@ -3,12 +3,14 @@
 #include "sim/base/error.h"
 #include "visuals/gl/gl_renderer.h"
 #include "visuals/gl/window_context.h"
+#include "visuals/scene/detail_pattern.h"
 
 #include <glm/common.hpp>
 #include <glm/gtc/type_ptr.hpp>
 #include <glm/vec4.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cstddef>
 #include <fmt/format.h>
@@ -24,6 +26,9 @@ using scene::PixelRect;
 
 constexpr GLuint picture_binding = 0; ///< place in the shaders
 
+/// The eye's place in the detail texture at each scale, then scene::detail_texels_per_m(); all 0 without a texture.
+using DetailPositions = std::array<glm::vec4, scene::DetailPattern::scales>;
+
 /// The block Picture of the shaders.
 struct FrameUniforms {
     glm::mat4 world_to_clip;
@@ -35,9 +40,7 @@ struct FrameUniforms {
     glm::vec4 sunlight;
     glm::mat4 ray_from_pixel;
     scene::GroundTextureTransforms ground_texture;
-    glm::vec4 detail_x;
-    glm::vec4 detail_y;
-    glm::vec4 detail_up;
+    DetailPositions detail_at_eye;
 };
 
 constexpr glm::vec4 inset_frame{0.08F, 0.09F, 0.1F, 1.0F};
@@ -57,16 +60,15 @@ glm::mat4 ray_from_pixel(const FramePlan& plan, const PixelRect& rect, RowOrder 
     return glm::transpose(plan.world_to_view) * view_ray;
 }
 
-/// A part of the eye's place in the detail texture at each scale; negative where there is none.
-glm::vec4 eye_detail_position(const std::optional<scene::DetailTexture>& detail_texture, glm::length_t part) {
-    glm::vec4 at_eye(-1.0F);
-    if (detail_texture) {
-        for (std::size_t scale = 0; scale < detail_texture->at_eye.size(); ++scale) {
-            at_eye[static_cast<glm::length_t>(scale)] =
-                part == 2 ? detail_texture->eye_height_tiles[scale] : detail_texture->at_eye[scale][part];
-        }
+DetailPositions eye_detail_positions(const FramePlan& plan, const PixelRect& rect) {
+    DetailPositions positions{};
+    if (!plan.detail_texture) { return positions; }
+    const double focal_px = 0.5 * rect.height * static_cast<double>(plan.view_to_clip[1][1]);
+    const auto texels_per_m = static_cast<float>(scene::detail_texels_per_m(focal_px));
+    for (std::size_t scale = 0; scale < positions.size(); ++scale) {
+        positions[scale] = glm::vec4(plan.detail_texture->at_eye[scale], texels_per_m);
     }
-    return at_eye;
+    return positions;
 }
 
 FrameUniforms values_of(const FramePlan& plan, const PixelRect& rect, RowOrder row_order) {
@@ -76,8 +78,7 @@ FrameUniforms values_of(const FramePlan& plan, const PixelRect& rect, RowOrder r
         glm::vec4(plan.haze.sunward_colour, plan.haze.falloff_per_m),
         glm::vec4(plan.haze.horizontal_to_sun, 0.0F, 0.0F), glm::vec4(plan.to_sun, 0.0F), glm::vec4(plan.ambient, 0.0F),
         glm::vec4(plan.sunlight, 0.0F), ray_from_pixel(plan, rect, row_order),
-        plan.ground_texture.value_or(scene::GroundTextureTransforms()), eye_detail_position(plan.detail_texture, 0),
-        eye_detail_position(plan.detail_texture, 1), eye_detail_position(plan.detail_texture, 2)};
+        plan.ground_texture.value_or(scene::GroundTextureTransforms()), eye_detail_positions(plan, rect)};
 }
 
 } // namespace

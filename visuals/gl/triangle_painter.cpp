@@ -52,6 +52,7 @@ void set_filters(const Functions& gl, const Object& texture, GLenum beyond) {
     set(GL_TEXTURE_MAG_FILTER, GL_LINEAR);
     set(GL_TEXTURE_WRAP_S, beyond);
     set(GL_TEXTURE_WRAP_T, beyond);
+    set(GL_TEXTURE_WRAP_R, beyond);
     if (!is_software_renderer(gl) && (has_extension(gl, "GL_EXT_texture_filter_anisotropic") ||
                                          has_extension(gl, "GL_ARB_texture_filter_anisotropic"))) {
         GLfloat most = 1.0F;
@@ -82,15 +83,15 @@ Object make_texture(const Functions& gl, const scene::GroundImage& image, Textur
 
 /// The ground's detail texture, a byte a texel, with its own levels; it repeats beyond its edge.
 Object make_detail_texture(const Functions& gl) {
-    Object texture = make_texture(gl, "ground's detail texture");
+    Object texture = make_texture(gl, "ground's detail texture", GL_TEXTURE_3D);
     const auto& levels = scene::detail_mip_levels();
     const auto side = static_cast<GLsizei>(levels.front().size);
-    gl.texture_storage_2d(texture.name(), static_cast<GLsizei>(levels.size()), GL_R8, side, side);
+    gl.texture_storage_3d(texture.name(), static_cast<GLsizei>(levels.size()), GL_R8, side, side, side);
     gl.pixel_storei(GL_UNPACK_ALIGNMENT, 1);
     GLint number = 0;
     for (const scene::DetailPattern& level : levels) {
-        gl.texture_sub_image_2d(
-            texture.name(), number++, 0, 0, level.size, level.size, GL_RED, GL_UNSIGNED_BYTE, level.texels.data());
+        gl.texture_sub_image_3d(texture.name(), number++, 0, 0, 0, level.size, level.size, level.size, GL_RED,
+            GL_UNSIGNED_BYTE, level.texels.data());
     }
     set_filters(gl, texture, GL_REPEAT);
     return texture;

@@ -305,7 +305,7 @@ public:
             roads::RoadConstraints constraints;
             constraints.water_m = water_level_m_;
             constraints.max_town_height_m =
-                climate.arid ? highest_desert_town_m : static_cast<double>(climate.tree_line_m);
+                climate.is_arid() ? highest_desert_town_m : static_cast<double>(climate.tree_line_m);
             if (runway != nullptr) {
                 constraints.is_blocked = [runway](const glm::dvec2& at_m) {
                     return runway->distance_m(at_m) < models::heights::side_slope_end_m;

@@ -47,7 +47,7 @@ MeshSettings mesh_settings(const scene::Settings& settings, bool has_texture) {
 const nature::Backdrop& Ground::backdrop() const {
     std::call_once(backdrop_once_, [this] {
         if (spacing_m() > 0.0) {
-            backdrop_ = nature::make_backdrop({half_extent_m(), mean_height_m(), mean_colour(),
+            backdrop_ = nature::make_backdrop({half_extent_m(), mean_height_m(), mean_colour(), water_level_m(),
                 [this](const glm::dvec2& at_m) { return height_at(at_m.x, at_m.y).value_or(mean_height_m()); },
                 [this](const glm::dvec2& at_m, double footprint_m) { return colour_at(at_m.x, at_m.y, footprint_m); },
                 [this](const glm::dvec2& at_m, double footprint_m) {

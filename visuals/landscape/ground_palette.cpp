@@ -37,6 +37,8 @@ struct SiteConditions {
     float patchiness;
     /// Share of the summer that fields and woods need: 0 where only heath grows.
     float summer_share = 1.0F;
+    /// As nature::Climate has it, less in high mountains.
+    float dryness = 0.0F;
 };
 
 /// What covers a place of temperate ground, shares 0..1.
@@ -63,10 +65,11 @@ struct ColourStop {
 
 // Cover of level ground by height above the water, and what shows where it is steep.
 constexpr std::array meadow_stops = {ColourStop{0.0F, {0.46F, 0.50F, 0.28F}}, ColourStop{300.0F, {0.37F, 0.47F, 0.22F}},
-    ColourStop{1100.0F, {0.36F, 0.43F, 0.23F}}, ColourStop{1600.0F, {0.46F, 0.46F, 0.31F}},
-    ColourStop{2000.0F, {0.52F, 0.50F, 0.45F}}};
+    ColourStop{1100.0F, {0.36F, 0.42F, 0.23F}}, ColourStop{1600.0F, {0.44F, 0.44F, 0.29F}},
+    ColourStop{2000.0F, {0.49F, 0.475F, 0.38F}}};
 constexpr glm::vec3 heath(0.40F, 0.38F, 0.24F);
 constexpr glm::vec3 dry_grass(0.58F, 0.55F, 0.31F);
+constexpr glm::vec3 steppe(0.60F, 0.54F, 0.37F); ///< grass of dry climates
 constexpr glm::vec3 forest(0.14F, 0.25F, 0.12F);
 constexpr float tree_line_m = 1500.0F; ///< for which the stops are meant ...
 constexpr float snow_line_m = 2350.0F; ///< ... and the line of lasting snow
@@ -76,12 +79,14 @@ const glm::vec3 mean_crop = 0.25F * (crops[0] + crops[1] + crops[2] + crops[3]);
 constexpr std::array arid_stops = {ColourStop{0.0F, {0.45F, 0.33F, 0.24F}}, ColourStop{900.0F, {0.58F, 0.38F, 0.26F}},
     ColourStop{1300.0F, {0.66F, 0.44F, 0.30F}}, ColourStop{1700.0F, {0.68F, 0.52F, 0.36F}},
     ColourStop{2050.0F, {0.60F, 0.54F, 0.36F}}, ColourStop{2400.0F, {0.42F, 0.45F, 0.28F}}};
-constexpr glm::vec3 temperate_rock(0.47F, 0.44F, 0.41F);
-constexpr glm::vec3 scree(0.54F, 0.51F, 0.46F);
+constexpr glm::vec3 temperate_rock(0.47F, 0.455F, 0.405F);
+constexpr glm::vec3 scree(0.54F, 0.52F, 0.46F);
 constexpr glm::vec3 shrubs(0.36F, 0.36F, 0.22F);
-constexpr float shrub_share = 0.35F; ///< of ground where they grow
+constexpr glm::vec3 chaparral(0.29F, 0.31F, 0.17F); ///< closed shrubs of half-dry climates
+constexpr float shrub_share = 0.35F;                ///< of ground where they grow
 constexpr glm::vec3 hedge(0.19F, 0.29F, 0.13F);
-constexpr scene::LandCover snow_on_ground{snow_colour, 0.03F};
+/// Patches of snow are thin at their borders: less bright than closed snow.
+constexpr scene::LandCover snow_on_ground{glm::vec3(0.72F, 0.72F, 0.71F), 0.03F};
 constexpr float bare_rock_share = 0.78F; ///< of the brightness of dust, without it
 constexpr float band_m = 85.0F;          ///< thickness of a stratum of arid rock ...
 constexpr float ledge_m = 13.0F;         ///< ... of a layer within it ...
@@ -195,11 +200,6 @@ glm::vec3 field_crop(const SiteConditions& site) {
     return glm::mix(colour, hedge, vegetated);
 }
 
-float patch_value(const SiteConditions& site, float size_m) {
-    const float left = visible_contrast(size_m, site.footprint_m);
-    return left > 0.0F ? left * patch_noise(site.east_m, site.north_m, size_m) : 0.0F;
-}
-
 /// In [-1, 1].
 float tree_speckle(const SiteConditions& site) {
     const float noise = lattice_noise(cell_of(site.east_m, 20.0F), cell_of(site.north_m, 20.0F));
@@ -217,12 +217,23 @@ float temperate_height_m(float height_m, const nature::Climate& climate) {
     return tree_line_m + above * (snow_line_m - tree_line_m);
 }
 
-/// How much of a place lies under snow: more on the shaded side, none where it is too steep to hold.
-float snow_share(const SiteConditions& site, const glm::vec3& normal, const nature::Climate& climate) {
+float patch_value(const SiteConditions& site, float size_m) {
+    const float left = visible_contrast(size_m, site.footprint_m);
+    return left > 0.0F ? left * patch_noise(site.east_m, site.north_m, size_m) : 0.0F;
+}
+
+/// How much of a place lies under snow: more on the shaded side and in hollows, where wind drops it, none where it is
+/// too steep to hold. `open_sky`: nature::LightVisibility::sky, less in hollows.
+float snow_share(const SiteConditions& site, const glm::vec3& normal, const nature::Climate& climate, float open_sky) {
     const float shaded_m = 400.0F * normal.y * climate.shaded_side;
-    const float above_m = site.height_m + 150.0F * site.patchiness + shaded_m - climate.snow_line_m;
-    const float holds = 1.0F - glm::smoothstep(0.20F, 0.42F, site.steepness + 0.05F * site.patchiness);
-    return glm::smoothstep(-250.0F, 150.0F, above_m) * holds;
+    const float drifted_m = 900.0F * (1.0F - open_sky);
+    const float height_m = site.height_m + shaded_m + drifted_m - climate.snow_line_m;
+    constexpr float never_m = -700.0F; // the most that patches add is less
+    if (height_m < never_m) { return 0.0F; }
+    const float patches_m =
+        150.0F * site.patchiness + 120.0F * patch_value(site, 90.0F) + 80.0F * patch_value(site, 28.0F);
+    const float holds = 1.0F - glm::smoothstep(0.16F, 0.44F, site.steepness + 0.05F * site.patchiness);
+    return glm::smoothstep(-350.0F, 250.0F, height_m + patches_m) * holds;
 }
 
 /// A tree line that is not drawn with a ruler.
@@ -237,7 +248,8 @@ LandCover land_cover(const SiteConditions& site) {
     cover.below_tree_line =
         1.0F - glm::smoothstep(tree_line_m - 200.0F, tree_line_m + 200.0F, tree_line_height_m(site));
     const float level = 1.0F - glm::smoothstep(0.0010F, 0.0035F, site.steepness);
-    const float arable = site.summer_share * cover.below_tree_line * level;
+    const float moist = 1.0F - glm::smoothstep(0.35F, 0.75F, site.dryness);
+    const float arable = site.summer_share * cover.below_tree_line * level * moist;
     if (arable > 0.0F) {
         cover.farmland =
             arable * glm::smoothstep(-0.15F, 0.05F, patch_noise(site.east_m, site.north_m + 1e5F, 1220.0F));
@@ -245,7 +257,7 @@ LandCover land_cover(const SiteConditions& site) {
     const float wild = 1.0F - cover.farmland;
     if (cover.below_tree_line > 0.0F && wild > 0.0F) {
         const float growth = site.patchiness + 0.5F * patch_value(site, 100.0F) + 5.0F * site.steepness - 0.12F -
-                             0.55F * (1.0F - site.summer_share);
+                             0.55F * (1.0F - site.summer_share) - 0.7F * site.dryness;
         cover.forest_share = glm::smoothstep(0.0F, 0.16F, growth) * cover.below_tree_line * wild;
     }
     cover.rock_share = glm::smoothstep(0.14F, 0.30F, site.steepness + 0.03F * site.patchiness);
@@ -278,11 +290,13 @@ glm::vec3 temperate_colour(const SiteConditions& site, const LandCover& cover, f
         const float dryness = 0.5F + 0.5F * patch_noise(site.east_m + 1e5F, site.north_m, 1660.0F);
         colour = glm::mix(
             stop_colour(meadow_stops, tree_line_height_m(site)), dry_grass, 0.45F * dryness * cover.below_tree_line);
-        colour = glm::mix(colour, heath, 0.6F * (1.0F - site.summer_share)) * mottling(site, 75.0F, 0.10F);
+        colour = glm::mix(colour, heath, 0.6F * (1.0F - site.summer_share));
+        colour = glm::mix(colour, steppe, std::min(1.6F * site.dryness, 0.9F)) * mottling(site, 75.0F, 0.10F);
     }
     if (cover.farmland > 0.0F) { colour = glm::mix(colour, field_crop(site), cover.farmland); }
     if (cover.forest_share > 0.0F) {
-        const glm::vec3 canopy = forest * (1.0F + 0.15F * tree_speckle(site)) * mottling(site, 110.0F, 0.14F);
+        const glm::vec3 plants = glm::mix(forest, chaparral, std::min(2.0F * site.dryness, 1.0F));
+        const glm::vec3 canopy = plants * (1.0F + 0.15F * tree_speckle(site)) * mottling(site, 110.0F, 0.14F);
         colour = glm::mix(colour, canopy, 0.9F * cover.forest_share);
     }
     if (stones > 0.0F) { colour = glm::mix(colour, scree * mottling(site, 20.0F, 0.10F), scree_share * stones); }
@@ -324,9 +338,11 @@ glm::vec3 dust_colour(const SiteConditions& site, const glm::vec3& dust) {
     return glm::mix(level, rock, arid_rock(site)) * (1.0F + 0.10F * site.patchiness);
 }
 
+/// Meadow and rock differ less in hue than where both are seen alone: above the tree line turf is nearly as grey as
+/// rock, which by a green meadow's share would look pink.
 std::array<scene::LandCover, scene::LandCoverContrast::covers> temperate_covers() {
-    return {scene::LandCover{forest, 0.17F}, scene::LandCover{meadow_stops[1].colour, 0.08F},
-        scene::LandCover{{0.45F, 0.44F, 0.39F}, 0.15F}, snow_on_ground};
+    return {scene::LandCover{forest, 0.17F}, scene::LandCover{{0.385F, 0.425F, 0.285F}, 0.10F},
+        scene::LandCover{{0.47F, 0.455F, 0.37F}, 0.15F}, snow_on_ground};
 }
 
 std::array<scene::LandCover, scene::LandCoverContrast::covers> arid_covers() {
@@ -348,6 +364,27 @@ float temperate_cover_code(const LandCover& cover, float stones) {
 float arid_cover_code(const SiteConditions& site) {
     const float vegetated = glm::mix(meadow_code, woods_code, shrub_share * shrub_cover(site));
     return glm::mix(vegetated, rock_code, arid_rock(site));
+}
+
+/// The same kinds of cover in climates of all dryness: a share of each.
+std::array<scene::LandCover, scene::LandCoverContrast::covers> mixed_covers(float arid_share) {
+    std::array<scene::LandCover, scene::LandCoverContrast::covers> covers = temperate_covers();
+    const auto arid = arid_covers();
+    for (std::size_t i = 0; i < covers.size(); ++i) {
+        covers[i].colour = glm::mix(covers[i].colour, arid[i].colour, arid_share);
+        covers[i].mottling = glm::mix(covers[i].mottling, arid[i].mottling, arid_share);
+    }
+    return covers;
+}
+
+/// The share of desert ground that a climate or place of some dryness shows; the rest is grass and shrubs.
+float arid_share_of(float dryness) { return glm::smoothstep(0.5F, 0.95F, dryness); }
+
+/// Mountains of half-dry climates have more rain than the plains around them; deserts stay dry.
+float dryness_at(float height_m, float dryness) {
+    const float wetter =
+        0.6F * glm::smoothstep(1500.0F, 2800.0F, height_m) * (1.0F - glm::smoothstep(0.7F, 0.9F, dryness));
+    return dryness * (1.0F - wetter);
 }
 
 float dust_cover_code(const SiteConditions& site) { return glm::mix(meadow_code, rock_code, arid_rock(site)); }
@@ -400,54 +437,59 @@ GroundPalette::GroundPalette(const scene::AirSettings& settings, const nature::C
     std::shared_ptr<const nature::ReliefShadows> terrain_shadows)
     : daylight_(daylight_of(settings)), climate_(climate), terrain_shadows_(std::move(terrain_shadows)),
       water_m_(static_cast<float>(settings.water_level_m)) {
-    if (settings.palette) { climate_.arid = settings.palette == scene::Palette::Arid; }
+    if (settings.palette && !climate_.dust) {
+        climate_.dryness = settings.palette == scene::Palette::Arid ? 1.0F : 0.0F;
+    }
 }
 
-GroundPalette::Cover GroundPalette::cover(const TerrainPoint& point, float footprint_m) const {
+GroundPalette::Cover GroundPalette::cover(const TerrainPoint& point, float footprint_m, float open_sky) const {
     if (is_water(point)) { return {glm::mix(water_colour, shallow_water, point.land_share), 0.0F}; }
     SiteConditions site = site_conditions(point, footprint_m, water_m_);
     if (climate_.dust) { return {dust_colour(site, *climate_.dust), dust_cover_code(site)}; }
-    const float white = snow_share(site, point.normal, climate_);
+    const float white = snow_share(site, point.normal, climate_, open_sky);
+    site.dryness = dryness_at(site.height_m, climate_.dryness);
+    const float arid_share = arid_share_of(site.dryness);
     Cover bare;
-    if (climate_.arid) {
-        bare = {arid_colour(site), arid_cover_code(site)};
-    } else {
+    if (arid_share > 0.0F) { bare = {arid_colour(site), arid_cover_code(site)}; }
+    if (arid_share < 1.0F) {
         site.height_m = temperate_height_m(site.height_m, climate_);
         site.summer_share = summer_share_of(climate_);
         const LandCover cover = land_cover(site);
         const float stones = scree_cover(site);
-        bare = {temperate_colour(site, cover, stones), temperate_cover_code(cover, stones)};
+        bare.albedo = glm::mix(temperate_colour(site, cover, stones), bare.albedo, arid_share);
+        bare.code = glm::mix(temperate_cover_code(cover, stones), bare.code, arid_share);
     }
     return {glm::mix(bare.albedo, snow_colour, white), glm::mix(bare.code, snow_code, white)};
 }
 
 glm::vec3 GroundPalette::albedo(const TerrainPoint& point, float footprint_m) const {
-    return cover(point, footprint_m).albedo;
+    return cover(point, footprint_m, visibility_at(point, footprint_m).sky).albedo;
 }
 
-glm::vec3 GroundPalette::light(const TerrainPoint& point, float footprint_m) const {
-    const nature::LightVisibility left = visibility_at(point, footprint_m);
+glm::vec3 GroundPalette::light(const TerrainPoint& point, const nature::LightVisibility& left) const {
     const float towards = std::max(glm::dot(point.normal, glm::vec3(daylight_.to_sun())), 0.0F);
     return daylight_.ambient() * left.sky + daylight_.sunlight() * (towards * left.sun);
 }
 
 glm::vec3 GroundPalette::lit_colour(const TerrainPoint& point, float footprint_m) const {
-    return albedo(point, footprint_m) * light(point, footprint_m);
+    const nature::LightVisibility left = visibility_at(point, footprint_m);
+    return cover(point, footprint_m, left.sky).albedo * light(point, left);
 }
 
 std::uint32_t GroundPalette::packed(const TerrainPoint& point, float footprint_m) const {
-    const Cover own = cover(point, footprint_m);
+    const nature::LightVisibility left = visibility_at(point, footprint_m);
+    const Cover own = cover(point, footprint_m, left.sky);
     const auto code = static_cast<std::uint32_t>(std::lround(own.code));
-    return (models::packed_colour(own.albedo * light(point, footprint_m)) & 0x00ffffffU) | code << 24U;
+    return (models::packed_colour(own.albedo * light(point, left)) & 0x00ffffffU) | code << 24U;
 }
 
 float GroundPalette::cover_code(const TerrainPoint& point, float footprint_m) const {
-    return cover(point, footprint_m).code;
+    return cover(point, footprint_m, visibility_at(point, footprint_m).sky).code;
 }
 
 scene::LandCoverContrast GroundPalette::contrast() const {
     if (climate_.dust) { return scene::LandCoverContrast(dust_covers(*climate_.dust)); }
-    return scene::LandCoverContrast(climate_.arid ? arid_covers() : temperate_covers());
+    return scene::LandCoverContrast(mixed_covers(arid_share_of(climate_.dryness)));
 }
 
 bool GroundPalette::is_water(const TerrainPoint& point) const {
@@ -456,19 +498,24 @@ bool GroundPalette::is_water(const TerrainPoint& point) const {
 
 nature::SceneryDensity GroundPalette::scenery_density(const TerrainPoint& point, float footprint_m) const {
     nature::SceneryDensity scenery_density;
-    scenery_density.sun = visibility_at(point, footprint_m).sun;
+    const nature::LightVisibility left = visibility_at(point, footprint_m);
+    scenery_density.sun = left.sun;
     SiteConditions site = site_conditions(point, footprint_m, water_m_);
-    const float white = snow_share(site, point.normal, climate_);
+    const float white = snow_share(site, point.normal, climate_, left.sky);
     if (climate_.dust || is_water(point) || site.steepness > 0.16F || white > 0.5F) { return scenery_density; }
-    if (climate_.arid) {
-        scenery_density.shrubs = 0.12F + 0.35F * shrub_cover(site);
-        return scenery_density;
-    }
+    site.dryness = dryness_at(site.height_m, climate_.dryness);
+    const float arid_share = arid_share_of(site.dryness);
+    scenery_density.shrubs = arid_share * (0.12F + 0.35F * shrub_cover(site));
+    if (arid_share >= 1.0F) { return scenery_density; }
     site.height_m = temperate_height_m(site.height_m, climate_);
     site.summer_share = summer_share_of(climate_);
     const LandCover cover = land_cover(site);
-    const float trees =
-        0.85F * cover.forest_share + 0.02F * site.summer_share * cover.below_tree_line * (1.0F - cover.farmland);
+    const float plants =
+        (1.0F - arid_share) *
+        (0.85F * cover.forest_share + 0.02F * site.summer_share * cover.below_tree_line * (1.0F - cover.farmland));
+    const float bushes = std::min(2.0F * site.dryness, 1.0F);
+    scenery_density.shrubs += plants * bushes;
+    const float trees = plants * (1.0F - bushes);
     const float conifers = glm::smoothstep(500.0F, 1100.0F, site.height_m + 300.0F * site.patchiness);
     scenery_density.conifers = trees * conifers;
     scenery_density.broadleaves = trees * (1.0F - conifers);
@@ -478,7 +525,8 @@ nature::SceneryDensity GroundPalette::scenery_density(const TerrainPoint& point,
 }
 
 glm::vec3 GroundPalette::light_visibility(const TerrainPoint& point, float footprint_m) const {
-    return light(point, footprint_m) / glm::max(illumination(point.normal, daylight_), glm::vec3(1e-3F));
+    return light(point, visibility_at(point, footprint_m)) /
+           glm::max(illumination(point.normal, daylight_), glm::vec3(1e-3F));
 }
 
 nature::LightVisibility GroundPalette::visibility_at(const TerrainPoint& point, float footprint_m) const {

@@ -93,8 +93,9 @@ private:
         float code = 0.0F;
     };
 
-    Cover cover(const TerrainPoint& point, float footprint_m) const;
-    glm::vec3 light(const TerrainPoint& point, float footprint_m) const;
+    /// `open_sky`: nature::LightVisibility::sky there.
+    Cover cover(const TerrainPoint& point, float footprint_m, float open_sky) const;
+    glm::vec3 light(const TerrainPoint& point, const nature::LightVisibility& left) const;
     nature::LightVisibility visibility_at(const TerrainPoint& point, float footprint_m) const;
 
     nature::Daylight daylight_;

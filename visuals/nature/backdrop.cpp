@@ -46,18 +46,24 @@ Backdrop::BackdropVertex vertex_at(const BackdropSource& map, double share, int 
     constexpr double inside = 0.999;
     const glm::dvec2 mirrored_m(
         inside * mirrored(at_m.x, map.half_extent_m.x), inside * mirrored(at_m.y, map.half_extent_m.y));
+    const auto is_water = [&](const glm::dvec2& of_map_m) {
+        return map.water_level_m && map.height_m(of_map_m) <= *map.water_level_m;
+    };
+    const glm::dvec2 edge_m = glm::clamp(at_m, -inside * map.half_extent_m, inside * map.half_extent_m);
+    if (is_water(edge_m)) { return {{at_m, *map.water_level_m}, map.colour(edge_m, 0.0), 0.0F, true}; }
     const double left = 1.0 - glm::smoothstep(0.0, 1.0, std::max(share, 0.0) / ring_distance_ratios.front());
     const double height_m = glm::mix(map.mean_height_m, map.height_m(mirrored_m), left) -
                             (share < 0.0 ? overlap_depth_ratio * size_m : 0.0);
     const double footprint_m = std::max(1.2 * size_m / vertices_per_side, 0.12 * share * size_m);
     return {{at_m, height_m}, glm::mix(map.mean_colour, map.colour(mirrored_m, footprint_m), static_cast<float>(left)),
-        map.cover_code ? map.cover_code(mirrored_m, footprint_m) : 0.0F};
+        map.cover_code ? map.cover_code(mirrored_m, footprint_m) : 0.0F, is_water(mirrored_m)};
 }
 
 } // namespace
 
 Backdrop make_backdrop(const BackdropSource& map) {
     Backdrop backdrop;
+    backdrop.outer_vertices = vertices_per_ring;
     for (const double share : ring_distance_ratios) {
         for (int number = 0; number < vertices_per_ring; ++number) {
             backdrop.vertices.push_back(vertex_at(map, share, number));

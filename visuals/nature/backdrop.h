@@ -3,8 +3,10 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <vector>
 
 namespace octant::visuals::nature {
@@ -13,7 +15,8 @@ namespace octant::visuals::nature {
 struct BackdropSource {
     glm::dvec2 half_extent_m{0.0};
     double mean_height_m = 0.0;
-    glm::vec3 mean_colour{0.5F}; ///< display values
+    glm::vec3 mean_colour{0.5F};         ///< display values
+    std::optional<double> water_level_m; ///< ground at it or below is water; nothing: there is none
     /// Height and colour of a position on the map; the colour is a mean over about `footprint_m`.
     std::function<double(const glm::dvec2& at_m)> height_m;
     std::function<glm::vec3(const glm::dvec2& at_m, double footprint_m)> colour;
@@ -22,17 +25,19 @@ struct BackdropSource {
 };
 
 /// Land around a map that goes on as the map's own mirror image and flattens towards the mean height and colour, so
-/// that no edge shows from above.
+/// that no edge shows from above. Where the map ends in water, water goes on.
 struct Backdrop {
     struct BackdropVertex {
         glm::dvec3 at_m{0.0}; ///< world axes
         glm::vec3 colour{0.0F};
         float cover_code = 0.0F; ///< their number, 0..255
+        bool is_water = false;   ///< the colour lacks what water mirrors
     };
 
     std::vector<BackdropVertex> vertices;
     /// Triangles counter-clockwise seen from above; for an eye above the map in painting order.
     std::vector<std::uint32_t> indices;
+    std::size_t outer_vertices = 0; ///< the first so many are those of the outermost ring
 };
 
 Backdrop make_backdrop(const BackdropSource& map);

@@ -12,11 +12,13 @@ namespace octant::visuals::nature {
 struct Climate {
     float tree_line_m = 1500.0F;
     float snow_line_m = 2350.0F;
-    bool arid = false;
+    float dryness = 0.0F;     ///< 1 in deserts, about a half in steppes, 0 where woods and fields grow
     float shaded_side = 0.0F; ///< 1 where north is the shaded side, -1 where south is; 0 = no side
     /// Display colour of the dust on another planet or moon, where there is nothing else: no water, plants, snow or
     /// people. Nothing on the earth.
     std::optional<glm::vec3> dust = {};
+
+    bool is_arid() const { return dryness > 0.75F; }
 };
 
 /// Of a place on the earth, degrees.

@@ -1,4 +1,5 @@
 #include "visuals/nature/daylight.h"
+
 #include "models/material.h"
 #include "sim/base/units.h"
 
@@ -109,6 +110,14 @@ constexpr double min_horizon = 0.42;
 constexpr double eye_power = 0.6;           ///< how far the eye makes up for lost sunlight, in stops a stop
 const glm::dvec3 low_tint(1.0, 0.88, 1.28); ///< a low sun's sky is less green than the model's
 
+/// The model's skies around a low sun are lemon and green: where red is stronger than blue, green keeps between both,
+/// nearer to red, and blue is not lost. `low`: 1 for a sun at the horizon, 0 for one that is high.
+glm::dvec3 without_lemon(const glm::dvec3& light, double low) {
+    const double blue = std::max(light.z, 0.16 * light.x);
+    const double green = std::min(light.y, glm::mix(light.x, blue, 0.45));
+    return glm::mix(light, glm::dvec3(light.x, light.x > light.z ? green : light.y, blue), low);
+}
+
 /// The sky's mean light around the horizon, but for the side of the sun.
 glm::dvec3 horizon_light(const PerezSky& sky) {
     glm::dvec3 sum(0.0);
@@ -159,7 +168,8 @@ Daylight::Daylight(const DaylightOptions& options)
     to_sun_ = {std::cos(elevation_rad) * level.x, std::cos(elevation_rad) * level.y, std::sin(elevation_rad)};
     horizontal_to_sun_ = level;
     exposure_ = exposure_of(sky_, elevation_rad, glm::dvec3(options.horizon));
-    haze_away_ = glm::vec3(models::srgb_from_linear(glm::dvec3(1.0) - glm::exp(-exposure_ * horizon_light(sky_))));
+    low_ = 1.0 - glm::smoothstep(0.0, 1.0, elevation_rad / adapted_rad);
+    haze_away_ = displayed(horizon_light(sky_));
     haze_sunward_ = perez(horizon_rad, 0.0);
     const double day = glm::smoothstep(0.0, 1.0, elevation_rad / adapted_rad);
     const PerezSky usual(usual_elevation_rad, turbidity);
@@ -173,9 +183,13 @@ Daylight::Daylight(const DaylightOptions& options)
     disc_ = glm::vec3(glm::mix(pure, glm::dvec3(1.0), glm::mix(0.5, 0.95, std::sqrt(day))));
 }
 
+glm::vec3 Daylight::displayed(const glm::dvec3& light) const {
+    const glm::dvec3 seen = without_lemon(exposure_ * light, low_);
+    return glm::vec3(models::srgb_from_linear(glm::dvec3(1.0) - glm::exp(-seen)));
+}
+
 glm::vec3 Daylight::perez(double elevation_rad, double azimuth_rad) const {
-    const glm::dvec3 light = exposure_ * sky_.light(elevation_rad, azimuth_rad);
-    return glm::vec3(models::srgb_from_linear(glm::dvec3(1.0) - glm::exp(-light)));
+    return displayed(sky_.light(elevation_rad, azimuth_rad));
 }
 
 glm::vec3 Daylight::horizon(double cos_to_sun) const {

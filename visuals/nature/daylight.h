@@ -79,6 +79,7 @@ public:
     static constexpr double glare_rad = 0.41888; ///< angular radius of the glare
 
 private:
+    glm::vec3 displayed(const glm::dvec3& light) const;
     glm::vec3 perez(double elevation_rad, double azimuth_rad) const;
 
     PerezSky sky_;
@@ -86,6 +87,7 @@ private:
     glm::dvec3 to_sun_;
     glm::dvec2 horizontal_to_sun_{0.0};
     glm::dvec3 exposure_{1.0}; ///< of red, green and blue
+    double low_ = 0.0;         ///< 1 for a sun at the horizon, 0 for one that is high
     glm::vec3 ambient_{0.0F};
     glm::vec3 sunlight_{0.0F};
     glm::vec3 haze_away_{0.0F};

@@ -20,6 +20,7 @@ namespace {
 constexpr int max_steps = 1024;   ///< along a side
 constexpr double min_fall = 0.01; ///< of the sun's rays, metres a metre: a sun of half a degree
 constexpr double softness_m = 2.0;
+constexpr double soft_steps = 2.0; ///< over which a shadow's edge is soft along the sun's way
 constexpr int min_surrounding = 2; ///< half its width, in steps; each next is twice as wide
 constexpr int surroundings = 5;
 constexpr double lost_a_slope = 0.85;
@@ -86,7 +87,7 @@ public:
                 const float own_m = height_m(line, place);
                 const double shadow_m = shadow_at(place + drift_) - fall_m_;
                 shade(by_columns_ ? line : place, by_columns_ ? place : line, shadow_m - static_cast<double>(own_m),
-                    fall_m_ + softness_m);
+                    soft_steps * fall_m_ + softness_m);
                 now_m_[static_cast<std::size_t>(place)] = std::max(own_m, static_cast<float>(shadow_m));
             }
             std::swap(before_m_, now_m_);
@@ -198,9 +199,31 @@ ReliefShadows::ReliefShadows(
             });
         }
     });
+    soften(sun_.front());
     add_coarser_levels(sun_);
     if (same_ground == nullptr) { add_coarser_levels(sky); }
     sky_ = same_ground == nullptr ? std::make_shared<const MipLevels>(std::move(sky)) : same_ground->sky_;
+}
+
+/// The mean of the places around each one, the nearer ones counting twice: edges along the sun's way are soft, too, and
+/// show no steps of the grid.
+void ReliefShadows::soften(MipLevel& level) {
+    const auto columns = static_cast<std::size_t>(level.columns);
+    const std::vector<std::uint8_t> sharp = level.shares;
+    parallel_for_rows(level.rows, [&](int row) {
+        for (int column = 0; column < level.columns; ++column) {
+            unsigned sum = 8;
+            for (int j = -1; j <= 1; ++j) {
+                const auto from = static_cast<std::size_t>(std::clamp(row + j, 0, level.rows - 1)) * columns;
+                for (int i = -1; i <= 1; ++i) {
+                    const auto at = static_cast<std::size_t>(std::clamp(column + i, 0, level.columns - 1));
+                    sum += (i == 0 ? 2U : 1U) * (j == 0 ? 2U : 1U) * sharp[from + at];
+                }
+            }
+            level.shares[static_cast<std::size_t>(row) * columns + static_cast<std::size_t>(column)] =
+                static_cast<std::uint8_t>(sum / 16);
+        }
+    });
 }
 
 void ReliefShadows::add_coarser_levels(MipLevels& levels) {

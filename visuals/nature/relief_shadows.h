@@ -40,6 +40,7 @@ private:
 
     using MipLevels = std::vector<MipLevel>;
 
+    static void soften(MipLevel& level);
     static void add_coarser_levels(MipLevels& levels);
 
     float spacing_m_; ///< of the first level

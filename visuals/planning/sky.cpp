@@ -94,10 +94,12 @@ glm::vec3 through_haze(const scene::Haze& haze, const glm::dvec3& position_m, co
 }
 
 Sky::Sky(const nature::Daylight& day, nature::Backdrop land)
-    : first_azimuth_rad_(std::atan2(day.horizontal_to_sun().x, day.horizontal_to_sun().y)), land_(std::move(land)) {
+    : first_azimuth_rad_(std::atan2(day.horizontal_to_sun().x, day.horizontal_to_sun().y)), land_(std::move(land)),
+      water_(day) {
     for (int segment_index = 0; segment_index < sky_segments; ++segment_index) {
         levels_.push_back(direction_from_heading(first_azimuth_rad_ - 2.0 * pi * segment_index / sky_segments));
     }
+    find_sea();
     add_dome(day);
     add_sun(day);
     sky_vertices_ = vertices_.size();
@@ -108,6 +110,24 @@ Sky::Sky(const nature::Daylight& day, nature::Backdrop land)
     }
     for (const std::uint32_t corner : land_.indices) {
         indices_.push_back(static_cast<std::uint32_t>(sky_vertices_) + corner);
+    }
+}
+
+/// Looks at the outermost of the land around the map.
+void Sky::find_sea() {
+    const std::span outermost = std::span(land_.vertices).first(land_.outer_vertices);
+    for (const glm::dvec3& level : levels_) {
+        const nature::Backdrop::BackdropVertex* nearest = nullptr;
+        double most = 0.0;
+        for (const nature::Backdrop::BackdropVertex& vertex : outermost) {
+            const glm::dvec2 at_m(vertex.at_m);
+            const double cosine = glm::dot(at_m, glm::dvec2(level)) / glm::length(at_m);
+            if (nearest == nullptr || cosine > most) {
+                nearest = &vertex;
+                most = cosine;
+            }
+        }
+        sea_.push_back(nearest != nullptr && nearest->is_water ? std::optional(nearest->colour) : std::nullopt);
     }
 }
 
@@ -258,13 +278,18 @@ scene::TriangleDraw Sky::around(
     keep_triangles_in(frustum, has_land ? vertices_.size() : sky_vertices_, has_land ? indices_.size() : sky_indices_);
     for (std::size_t i = 0; i < plain_rays_.size(); ++i) {
         if (is_shown_[first_below + i] == 0) { continue; }
-        vertices_[first_below + i] = dome_vertex(plain_rays_[i], colour_below(plain_rays_[i], beyond, haze));
+        const glm::dvec3& ray = plain_rays_[i];
+        const std::optional<glm::vec3>& sea = sea_[i % levels_.size()];
+        beyond.colour = sea ? water_.shaded_colour(*sea, glm::vec3(ray)) : plain.colour;
+        vertices_[first_below + i] = dome_vertex(ray, colour_below(ray, beyond, haze));
     }
     for (std::size_t i = 0; has_land && i < land_m_.size(); ++i) {
         if (is_shown_[sky_vertices_ + i] == 0) { continue; }
         const nature::Backdrop::BackdropVertex& corner = land_.vertices[i];
         const auto cover_code = static_cast<std::uint32_t>(std::lround(corner.cover_code));
-        const std::uint32_t colour = models::packed_colour(through_haze(haze, land_m_[i], corner.colour)) & 0x00ffffffU;
+        const glm::vec3 own =
+            corner.is_water ? water_.shaded_colour(corner.colour, glm::vec3(land_m_[i])) : corner.colour;
+        const std::uint32_t colour = models::packed_colour(through_haze(haze, land_m_[i], own)) & 0x00ffffffU;
         vertices_[sky_vertices_ + i].colour = colour | cover_code << 24U;
     }
     number_shown_vertices();

@@ -11,6 +11,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace octant::visuals::planning {
@@ -50,6 +51,7 @@ public:
     std::size_t first_land_vertex() const { return first_land_vertex_; }
 
 private:
+    void find_sea();
     void add_ring_triangles(std::uint32_t upper, std::uint32_t lower, int corners);
     void add_dome(const nature::Daylight& day);
     void add_sun(const nature::Daylight& day);
@@ -61,6 +63,7 @@ private:
     /// The azimuth at which each ring of the dome begins: the sun's.
     double first_azimuth_rad_;
     nature::Backdrop land_;
+    nature::WaterReflection water_;
     /// Half the extent of the land around the world's origin along both axes.
     glm::dvec2 land_half_m_{0.0};
     /// The vertices of dome and sun, then those of the land.
@@ -68,6 +71,8 @@ private:
     std::vector<std::uint32_t> indices_;
     /// The directions in which the corners of each ring of the dome lie, level.
     std::vector<glm::dvec3> levels_;
+    /// For each of them the colour of the water beyond the land, without what it mirrors; nothing: a plain lies there.
+    std::vector<std::optional<glm::vec3>> sea_;
     // Of the last frame.
     std::vector<glm::dvec3> plain_rays_; ///< of the rings below the horizon
     std::vector<glm::dvec3> land_m_;     ///< the land's vertices

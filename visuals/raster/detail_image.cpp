@@ -19,19 +19,20 @@ using scene::DetailPattern;
 /// Writes a level's texels from its first row on.
 void write_level(const DetailPattern& pattern, std::uint16_t* to) {
     const auto size = static_cast<std::size_t>(pattern.size);
-    for (std::size_t row = 0; row < size; ++row) {
+    for (std::size_t row = 0; row < size * size; ++row) {
+        const std::size_t beside_row = row / size * size + (row + 1) % size;
         const std::uint8_t* const own = &pattern.texels[row * size];
-        const std::uint8_t* const above = &pattern.texels[(row + 1) % size * size];
+        const std::uint8_t* const beside = &pattern.texels[beside_row * size];
         std::uint16_t* const line = to + row * DetailImage::stride;
         for (std::size_t column = 0; column <= size; ++column) {
             const std::size_t from = column % size;
-            line[column] = static_cast<std::uint16_t>(own[from] | above[from] << 8);
+            line[column] = static_cast<std::uint16_t>(own[from] | beside[from] << 8);
         }
     }
 }
 
-/// A part of the world direction of each pixel's line of sight, one unit deep: `of_view` has that part of the
-/// directions right, up and backwards.
+/// The part along an axis of each pixel's line of sight, one unit deep: `of_view` has that part of the directions
+/// right, up and backwards.
 AttributePlane ray_part(const glm::dvec3& of_view, const glm::dmat4& view_to_clip, const glm::dvec2& half_px) {
     const double across = 1.0 / view_to_clip[0][0];
     const double up = 1.0 / view_to_clip[1][1];
@@ -46,7 +47,7 @@ AttributePlane ray_part(const glm::dvec3& of_view, const glm::dmat4& view_to_cli
 
 } // namespace
 
-DetailImage::DetailImage() : texels_(std::size_t{2 * side} * stride) {
+DetailImage::DetailImage() : texels_(std::size_t{2 * rows} * stride) {
     int level = 0;
     for (const DetailPattern& pattern : scene::detail_mip_levels()) {
         write_level(pattern, &texels_[static_cast<std::size_t>(row_of(level++)) * stride]);
@@ -64,17 +65,22 @@ DetailRays detail_rays(const scene::FramePlan& plan, const Projection& projectio
     const glm::dmat4 view_to_clip(plan.view_to_clip);
     const glm::dvec2 half_px(projection.half_px);
     DetailRays rays;
-    // Columns of world_to_view: what the world's axes are in the view's.
-    for (glm::length_t axis = 0; axis < 3; ++axis) {
-        rays.direction[static_cast<std::size_t>(axis)] = ray_part(world_to_view[axis], view_to_clip, half_px);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const glm::dvec3& in_world = DetailPattern::axes[axis];
+        rays.direction[axis] = ray_part(world_to_view * in_world, view_to_clip, half_px);
+        rays.up[axis] = static_cast<float>(in_world.z);
     }
+    const auto texels_per_m = static_cast<float>(scene::detail_texels_per_m(view_to_clip[1][1] * half_px.y));
+    rays.texels2_per_m2 = texels_per_m * texels_per_m;
     constexpr auto parts_a_texel = 256.0F;
     constexpr auto parts_a_tile = parts_a_texel * DetailPattern::side_texels;
-    for (std::size_t scale = 0; scale < DetailPattern::scales; ++scale) {
-        const float texels_per_m =
+    for (std::size_t scale = 0; scale < rays.scales.size(); ++scale) {
+        const float texels_per_m_of_scale =
             std::ldexp(DetailPattern::texels_per_m, -DetailPattern::levels_per_scale * static_cast<int>(scale));
-        rays.scales[scale] = {plan.detail_texture->at_eye[scale] * parts_a_tile,
-            plan.detail_texture->eye_height_tiles[scale] * parts_a_tile, parts_a_texel * texels_per_m};
+        const glm::vec3& in_next = plan.detail_texture->at_eye[scale + 1];
+        const glm::vec3 in_own(in_next.z, in_next.x, in_next.y); // its first axis is the second one here
+        rays.scales[scale] = {
+            in_own * (DetailPattern::scale_step * parts_a_tile), parts_a_texel * texels_per_m_of_scale};
     }
     const scene::Haze& haze = plan.haze;
     rays.haze_per_m = haze.visibility_m > 0.0F ? 1.0F / haze.visibility_m : 0.0F;

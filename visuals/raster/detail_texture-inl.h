@@ -227,7 +227,7 @@ struct TileRayComponent {
 /// A part of the lines of sight at the first pixels of pairs.
 using PairRays = std::array<hn::Vec<PixelPairs>, 3>;
 
-/// The lines of sight of a tile: east, north and up.
+/// The lines of sight of a tile along the pattern's axes.
 struct TileRays {
     std::array<TileRayComponent, 3> part;
 
@@ -254,22 +254,21 @@ struct TileRays {
     }
 };
 
-/// Where pairs of pixels look in the pattern: at a scale at the level of their size, and at the next coarser scale at
-/// its finest level.
+/// Where pairs of pixels look in the pattern: at a scale at the level of their size, and at the next coarser scale,
+/// whose place follows from it, at its finest level.
 struct DetailPositions {
-    // 1/256 texel of the finest level.
-    hn::Vec<PixelPairInts> fine_x;
-    hn::Vec<PixelPairInts> fine_y;
-    hn::Vec<PixelPairInts> coarse_x;
-    hn::Vec<PixelPairInts> coarse_y;
-    /// The level, counted through all scales, 2^-24; its lowest bits are `ground` and `sides`.
+    /// Along the pattern's axes at a scale, 1/256 texel of the finest level, within the next scale's cube.
+    using Place = std::array<hn::Vec<PixelPairInts>, 3>;
+
+    Place fine;
+    /// The level, counted through all scales, 2^-24; its lowest bit is `ground`.
     hn::Vec<PixelPairBits> level;
     /// What the haze leaves, 2^-15; 0: no ground, or nothing is left.
     hn::Vec<PixelPairBits> left;
 
-    static constexpr unsigned ground = 4; ///< there is some
-    static constexpr unsigned sides = 3;  ///< from which the pattern is laid over it
-    static constexpr int scale_shift = 26;
+    static constexpr unsigned ground = 1; ///< there is some
+    static constexpr int scale_shift = 24 + 1;
+    static_assert(scene::DetailPattern::levels_per_scale == 2);
 };
 
 /// Finds them.
@@ -291,34 +290,20 @@ public:
         // The pattern's finest features are two texels wide: half a level finer than usual will do.
         const auto widest = hn::Max(square(across), hn::Mul(square(down), pair_floats(0.5F)));
         const auto depth2 = hn::Mul(depth_, depth_);
-        choose_level(hn::Mul(widest, depth2));
-        choose_sides(across, down);
+        choose_level(hn::Mul(hn::Mul(widest, depth2), pair_floats(rays.texels2_per_m2)));
         look_at(rays);
     }
 
     /// `haze_per_depth`: by how much ground one unit deep dims.
     HWY_INLINE DetailPositions places(const DetailRays& rays, float haze_per_depth) const {
         const PixelPairBits bits;
-        const auto of = [&](hn::Mask<PixelPairs> which, unsigned bit)
-                            HWY_ATTR { return hn::IfThenElseZero(hn::RebindMask(bits, which), pair_bits(bit)); };
-        const auto flags =
-            hn::Or(of(is_ground_, DetailPositions::ground), hn::Or(of(upright_in_x_, 1), of(upright_in_y_, 2)));
-        const auto left = hn::IfThenElseZero(hn::RebindMask(bits, is_ground_), left_of_haze(rays, haze_per_depth));
-        return {fine_.x, fine_.y, coarse_.x, coarse_.y, hn::Or(hn::AndNot(pair_bits(7), level_), flags), left};
+        const auto is_ground = hn::RebindMask(bits, is_ground_);
+        const auto flag = hn::IfThenElseZero(is_ground, pair_bits(DetailPositions::ground));
+        const auto left = hn::IfThenElseZero(is_ground, left_of_haze(rays, haze_per_depth));
+        return {fine_, hn::Or(hn::AndNot(pair_bits(DetailPositions::ground), level_), flag), left};
     }
 
 private:
-    /// As DetailPositions has it.
-    struct Place {
-        hn::Vec<PixelPairInts> x;
-        hn::Vec<PixelPairInts> y;
-    };
-
-    struct PlaceM {
-        hn::Vec<PixelPairs> x;
-        hn::Vec<PixelPairs> y;
-    };
-
     static HWY_INLINE hn::Vec<PixelPairs> square(const PairRays& direction) {
         return hn::Add(hn::Add(hn::Mul(direction[0], direction[0]), hn::Mul(direction[1], direction[1])),
             hn::Mul(direction[2], direction[2]));
@@ -326,7 +311,9 @@ private:
 
     /// As scene::Haze, by polynomials: the pattern need not fade to the bit.
     HWY_INLINE hn::Vec<PixelPairBits> left_of_haze(const DetailRays& rays, float haze_per_depth) const {
-        const auto haze_density_exponent = hn::Mul(at_[2], pair_floats(-rays.haze_falloff_per_m));
+        auto up_m = hn::Zero(PixelPairs());
+        for (std::size_t i = 0; i < 3; ++i) { up_m = hn::Add(up_m, hn::Mul(at_[i], pair_floats(rays.up[i]))); }
+        const auto haze_density_exponent = hn::Mul(up_m, pair_floats(-rays.haze_falloff_per_m));
         const auto within = hn::Min(hn::Max(haze_density_exponent, pair_floats(-1.5F)), pair_floats(6.0F));
         auto density = hn::Add(pair_floats(1.0F / 24.0F), hn::Mul(within, pair_floats(1.0F / 120.0F)));
         for (const float factor : {1.0F / 6.0F, 1.0F / 2.0F, 1.0F}) {
@@ -340,122 +327,89 @@ private:
         return hn::BitCast(PixelPairBits(), hn::ConvertTo(PixelPairInts(), hn::Mul(share, pair_floats(32767.0F))));
     }
 
-    /// From which side the pattern is laid over steep ground: by the normal of what is seen, which lies across both
-    /// changes.
-    HWY_INLINE void choose_sides(const PairRays& across, const PairRays& down) {
-        const auto normal2 = [&](std::size_t one, std::size_t other) HWY_ATTR {
-            const auto part = hn::Sub(hn::Mul(across[one], down[other]), hn::Mul(across[other], down[one]));
-            return hn::Mul(part, part);
-        };
-        const auto east2 = normal2(1, 2);
-        const auto north2 = normal2(2, 0);
-        constexpr float min2 = scene::DetailPattern::min_upright_slope * scene::DetailPattern::min_upright_slope;
-        const auto is_steep = hn::Gt(hn::Add(east2, north2), hn::Mul(normal2(0, 1), pair_floats(min2)));
-        const auto is_east = hn::Ge(east2, north2);
-        upright_in_x_ = hn::And(is_steep, is_east);
-        upright_in_y_ = hn::AndNot(is_east, is_steep);
-        any_upright_ = !hn::AllFalse(PixelPairs(), is_steep);
-    }
-
-    /// By half the logarithm of the squared width of what is seen, straight between powers of two.
-    HWY_INLINE void choose_level(hn::Vec<PixelPairs> width2_m) {
+    /// By half the logarithm of the squared width of what is seen, in texels, straight between powers of two.
+    HWY_INLINE void choose_level(hn::Vec<PixelPairs> texels2) {
         using scene::DetailPattern;
         constexpr std::int32_t of_one = 127 << 23; // the bits of 1.0
         constexpr int levels = DetailPattern::levels_per_scale * (DetailPattern::scales - 1);
         constexpr std::int32_t max = (levels << 24) - 1;
-        constexpr float texels2_per_m2 = DetailPattern::texels_per_m * DetailPattern::texels_per_m;
-        const auto texels2 = hn::Mul(width2_m, pair_floats(texels2_per_m2));
         const auto exponent = hn::Sub(hn::BitCast(PixelPairInts(), texels2), hn::Set(PixelPairInts(), of_one));
         level_ = hn::BitCast(
             PixelPairBits(), hn::Min(hn::Max(exponent, hn::Zero(PixelPairInts())), hn::Set(PixelPairInts(), max)));
     }
 
-    /// At odd scales the pattern is turned by a right angle, and leans the other way.
     HWY_INLINE void look_at(const DetailRays& rays) {
         using scene::DetailPattern;
-        const auto lean_east = hn::Mul(at_[2], pair_floats(DetailPattern::shift_per_height.x));
-        const auto lean_north = hn::Mul(at_[2], pair_floats(DetailPattern::shift_per_height.y));
-        PlaceM even{hn::Add(at_[0], lean_east), hn::Add(at_[1], lean_north)};
-        PlaceM odd{hn::Sub(at_[1], lean_north), hn::Sub(lean_east, at_[0])};
-        if (any_upright_) {
-            even.x = hn::IfThenElse(upright_in_x_, at_[2], even.x);
-            even.y = hn::IfThenElse(upright_in_y_, at_[2], even.y);
-            odd.x = hn::IfThenElse(upright_in_y_, at_[2], odd.x);
-            odd.y = hn::IfThenElse(upright_in_x_, hn::Neg(at_[2]), odd.y);
-        }
-        fine_ = {hn::Zero(PixelPairInts()), hn::Zero(PixelPairInts())};
-        coarse_ = fine_;
+        fine_.fill(hn::Zero(PixelPairInts()));
         const auto scale_of_each = hn::ShiftRight<DetailPositions::scale_shift>(level_);
         // Adjacent pairs seldom have different scales.
         for (std::size_t scale = 0; scale + 1 < DetailPattern::scales; ++scale) {
             const auto is_it =
                 hn::RebindMask(PixelPairInts(), hn::Eq(scale_of_each, pair_bits(static_cast<unsigned>(scale))));
             if (hn::AllFalse(PixelPairInts(), is_it)) { continue; }
-            const bool is_odd = scale % 2 != 0;
-            const Place fine = place_of(rays, scale, is_odd ? odd : even);
-            const Place coarse = place_of(rays, scale + 1, is_odd ? even : odd);
-            fine_.x = hn::IfThenElse(is_it, fine.x, fine_.x);
-            fine_.y = hn::IfThenElse(is_it, fine.y, fine_.y);
-            coarse_.x = hn::IfThenElse(is_it, coarse.x, coarse_.x);
-            coarse_.y = hn::IfThenElse(is_it, coarse.y, coarse_.y);
+            for (std::size_t axis = 0; axis < 3; ++axis) {
+                fine_[axis] = hn::IfThenElse(is_it, place_of(rays, scale, axis), fine_[axis]);
+            }
         }
     }
 
-    HWY_INLINE Place place_of(const DetailRays& rays, std::size_t scale, const PlaceM& at_m) const {
+    /// From scale to scale the first axis is the second one of the scale before, and so on.
+    HWY_INLINE hn::Vec<PixelPairInts> place_of(const DetailRays& rays, std::size_t scale, std::size_t axis) const {
         const DetailRays::Scale& of = rays.scales[scale];
-        const auto fixed = [&](hn::Vec<PixelPairs> place_m, hn::Vec<PixelPairs> eye) HWY_ATTR {
-            const auto parts = hn::Add(hn::Mul(place_m, pair_floats(of.parts_per_m)), eye);
-            return hn::ConvertTo(PixelPairInts(), parts);
-        };
-        auto eye_x = pair_floats(of.eye.x);
-        auto eye_y = pair_floats(of.eye.y);
-        if (any_upright_) {
-            const bool is_odd = scale % 2 != 0;
-            const auto in_x = is_odd ? upright_in_y_ : upright_in_x_;
-            const auto in_y = is_odd ? upright_in_x_ : upright_in_y_;
-            eye_x = hn::IfThenElse(in_x, pair_floats(of.eye_up), eye_x);
-            eye_y = hn::IfThenElse(in_y, pair_floats(is_odd ? -of.eye_up : of.eye_up), eye_y);
-        }
-        return {fixed(at_m.x, eye_x), fixed(at_m.y, eye_y)};
+        const auto place_m = at_[(axis + scale) % 3];
+        const auto eye = pair_floats(of.eye[static_cast<glm::length_t>(axis)]);
+        return hn::ConvertTo(PixelPairInts(), hn::Add(hn::Mul(place_m, pair_floats(of.parts_per_m)), eye));
     }
 
     hn::Mask<PixelPairs> is_ground_;
     hn::Vec<PixelPairs> depth_;
-    PairRays at_;                  ///< metres from the eye
-    hn::Vec<PixelPairBits> level_; ///< as DetailPositions, but for its flags
-    Place fine_;
-    Place coarse_;
-    hn::Mask<PixelPairs> upright_in_x_; ///< at even scales the pattern's east is up
-    hn::Mask<PixelPairs> upright_in_y_; ///< its north is
-    bool any_upright_ = false;
+    PairRays at_;                  ///< metres from the eye, along the pattern's axes
+    hn::Vec<PixelPairBits> level_; ///< as DetailPositions, but for its flag
+    DetailPositions::Place fine_;
 };
 
 // -- The pattern sampled for one row of a tile.
 
-/// The pattern at places of a level of each, mixed from four texels: 2^-15, from -1 to 1. Places are as
-/// DetailPositions::fine_x.
+/// The pattern at places of a level of each, mixed from eight texels: 2^-15, from -1 to 1. Places are as
+/// DetailPositions::fine.
 HWY_INLINE hn::Vec<PixelPairInts> sample_detail_level(
-    const DetailImage& image, hn::Vec<PixelPairBits> x, hn::Vec<PixelPairBits> y, hn::Vec<PixelPairBits> level) {
+    const DetailImage& image, const std::array<hn::Vec<PixelPairBits>, 3>& place, hn::Vec<PixelPairBits> level) {
     const PixelPairBits bits;
     const hn::Repartition<std::uint16_t, PixelPairBits> halves;
+    static_assert(DetailImage::side == 1 << 6 && DetailImage::stride == DetailImage::side + 1);
     const auto last = hn::Shr(pair_bits(DetailImage::side - 1), level);
-    const auto column = hn::And(hn::ShiftRight<8>(x), last);
-    const auto in_level = hn::And(hn::ShiftRight<8>(y), last);
-    const auto first_row = hn::Sub(pair_bits(2 * DetailImage::side), hn::Shr(pair_bits(2 * DetailImage::side), level));
-    const auto row = hn::Add(first_row, in_level);
-    static_assert(DetailImage::stride == (1 << 9) + 1);
-    const auto texel = hn::Add(hn::Add(hn::ShiftLeft<9>(row), row), column);
-    const auto four = hn::GatherOffset(bits, reinterpret_cast<const std::uint32_t*>(image.texels()),
-        hn::BitCast(PixelPairInts(), hn::Add(texel, texel)));
+    const auto whole = [&](std::size_t axis) HWY_ATTR { return hn::ShiftRight<8>(place[axis]); };
+    const auto column = hn::And(whole(0), last);
+    const auto all_rows = pair_bits(2 * DetailImage::rows);
+    const auto row = hn::Add(hn::Sub(all_rows, hn::Shr(all_rows, level)), hn::And(whole(1), last));
+    const auto layer_shift = hn::Sub(pair_bits(6), level);
+    const auto four_of = [&](hn::Vec<PixelPairBits> layer) HWY_ATTR {
+        const auto row_of_layer = hn::Add(row, hn::Shl(hn::And(layer, last), layer_shift));
+        const auto texel = hn::Add(hn::Add(hn::ShiftLeft<6>(row_of_layer), row_of_layer), column);
+        return hn::GatherOffset(bits, reinterpret_cast<const std::uint32_t*>(image.texels()),
+            hn::BitCast(PixelPairInts(), hn::Add(texel, texel)));
+    };
+    const auto near = four_of(whole(2));
+    const auto far = four_of(hn::Add(whole(2), pair_bits(1)));
     const auto byte_of_each = pair_bits(0x00ff00ff);
-    const auto own = hn::BitCast(halves, hn::And(four, byte_of_each));
-    const auto above = hn::BitCast(halves, hn::And(hn::ShiftRight<8>(four), byte_of_each));
-    const auto up = hn::And(y, pair_bits(0xff));
-    const auto ups = hn::BitCast(halves, hn::Or(up, hn::ShiftLeft<16>(up)));
-    const auto both = hn::BitCast(bits, hn::Add(hn::ShiftLeft<8>(own), hn::Mul(hn::Sub(above, own), ups)));
+    // Two texels at a time: by layers, then by rows, then both of them.
+    const auto part_of = [&](std::size_t axis) HWY_ATTR {
+        const auto part = hn::And(place[axis], pair_bits(0xff));
+        return hn::BitCast(halves, hn::Or(part, hn::ShiftLeft<16>(part)));
+    };
+    const auto of_layers = part_of(2);
+    const auto between_layers = [&](hn::Vec<PixelPairBits> of_near, hn::Vec<PixelPairBits> of_far) HWY_ATTR {
+        const auto first = hn::BitCast(halves, hn::And(of_near, byte_of_each));
+        const auto second = hn::BitCast(halves, hn::And(of_far, byte_of_each));
+        return hn::Add(hn::ShiftLeft<8>(first), hn::Mul(hn::Sub(second, first), of_layers));
+    };
+    const auto own = between_layers(near, far);
+    const auto beside = between_layers(hn::ShiftRight<8>(near), hn::ShiftRight<8>(far));
+    const auto of_rows = hn::ShiftLeft<8>(part_of(1));
+    const auto both = hn::BitCast(bits, hn::Add(hn::MulHigh(own, hn::Not(of_rows)), hn::MulHigh(beside, of_rows)));
     const auto left = hn::BitCast(PixelPairInts(), hn::And(both, pair_bits(0xffff)));
     const auto right = hn::BitCast(PixelPairInts(), hn::ShiftRight<16>(both));
-    const auto rightwards = hn::BitCast(PixelPairInts(), hn::And(x, pair_bits(0xff)));
+    const auto rightwards = hn::BitCast(PixelPairInts(), hn::And(place[0], pair_bits(0xff)));
     const auto mean = hn::Add(left, hn::ShiftRight<8>(hn::Mul(hn::Sub(right, left), rightwards)));
     return hn::Sub(mean, hn::Set(PixelPairInts(), 128 * 256));
 }
@@ -464,26 +418,23 @@ HWY_INLINE hn::Vec<PixelPairInts> sample_detail_level(
 struct DetailPositionRow {
     using Each = std::array<std::uint32_t, pairs_per_phase + 16>;
 
-    alignas(64) std::array<Each, 6> value; ///< as DetailPositions
+    alignas(64) std::array<Each, 5> value; ///< as DetailPositions
 
     HWY_INLINE DetailPositions places(std::size_t at) const {
         const auto whole = [&](std::size_t which) HWY_ATTR {
             return hn::BitCast(PixelPairInts(), hn::LoadU(PixelPairBits(), &value[which][at]));
         };
-        return {whole(0), whole(1), whole(2), whole(3), hn::LoadU(PixelPairBits(), &value[4][at]),
-            hn::LoadU(PixelPairBits(), &value[5][at])};
+        return {{whole(0), whole(1), whole(2)}, hn::LoadU(PixelPairBits(), &value[3][at]),
+            hn::LoadU(PixelPairBits(), &value[4][at])};
     }
 
     HWY_INLINE void put(const DetailPositions& places, std::size_t at) {
         const auto put_one = [&](std::size_t which, auto values) HWY_ATTR {
             hn::StoreU(hn::BitCast(PixelPairBits(), values), PixelPairBits(), &value[which][at]);
         };
-        put_one(0, places.fine_x);
-        put_one(1, places.fine_y);
-        put_one(2, places.coarse_x);
-        put_one(3, places.coarse_y);
-        put_one(4, places.level);
-        put_one(5, places.left);
+        for (std::size_t axis = 0; axis < 3; ++axis) { put_one(axis, places.fine[axis]); }
+        put_one(3, places.level);
+        put_one(4, places.left);
     }
 
     /// No ground.
@@ -495,7 +446,7 @@ struct DetailPositionRow {
 /// What pairs of pixels see: in the upper half the pattern at the first one's place, 2^-15, in the lower half what the
 /// haze leaves of it, likewise; 0: no ground. Of both scales together: the squares of their shares are about one, so
 /// that the contrast stays while one gives way to the other while its levels are gone through. Most pixels take one
-/// level: the next one comes in over a third of the way only.
+/// level: the next one comes in over a sixth of the way only.
 HWY_INLINE hn::Vec<PixelPairBits> sample_detail(const DetailImage& image, const DetailPositions& places) {
     const PixelPairBits bits;
     const PixelPairInts whole;
@@ -504,27 +455,31 @@ HWY_INLINE hn::Vec<PixelPairBits> sample_detail(const DetailImage& image, const 
     const auto half_texel = pair_bits(128);
     const auto all = hn::Set(whole, 256);
     const auto part = hn::BitCast(whole, hn::And(hn::ShiftRight<16>(places.level), pair_bits(0xff)));
-    const auto from_band = hn::Sub(part, hn::Set(whole, 85));
-    const auto thrice = hn::Add(hn::Add(from_band, from_band), from_band);
-    const auto share = hn::Min(hn::Max(thrice, hn::Zero(whole)), all);
+    const auto from_band = hn::Sub(part, hn::Set(whole, 107));
+    const auto sixfold = hn::Mul(from_band, hn::Set(whole, 6));
+    const auto share = hn::Min(hn::Max(sixfold, hn::Zero(whole)), all);
     // What has the next level whole has it alone.
     const auto is_next = hn::ShiftRight<8>(hn::BitCast(bits, share));
-    static_assert(scene::DetailPattern::levels_per_scale == 4);
-    const auto level = hn::Add(hn::And(hn::ShiftRight<24>(places.level), pair_bits(3)), is_next);
+    static_assert(scene::DetailPattern::levels_per_scale == 2);
+    const auto level = hn::Add(hn::And(hn::ShiftRight<24>(places.level), pair_bits(1)), is_next);
     const auto at_level = [&](hn::Vec<PixelPairBits> of) HWY_ATTR {
-        const auto place = [&](hn::Vec<PixelPairInts> fine_coord)
-                               HWY_ATTR { return hn::Sub(hn::Shr(hn::BitCast(bits, fine_coord), of), half_texel); };
-        return sample_detail_level(image, place(places.fine_x), place(places.fine_y), of);
+        const auto along = [&](std::size_t axis) HWY_ATTR {
+            return hn::Sub(hn::Shr(hn::BitCast(bits, places.fine[axis]), of), half_texel);
+        };
+        return sample_detail_level(image, {along(0), along(1), along(2)}, of);
     };
-    const auto coarse = sample_detail_level(image, hn::Sub(hn::BitCast(bits, places.coarse_x), half_texel),
-        hn::Sub(hn::BitCast(bits, places.coarse_y), half_texel), hn::Zero(bits));
+    const auto on_coarse = [&](std::size_t axis) HWY_ATTR {
+        const auto texels = hn::ShiftRight<scene::DetailPattern::levels_per_scale>(places.fine[axis]);
+        return hn::Sub(hn::BitCast(bits, texels), half_texel);
+    };
+    const auto coarse = sample_detail_level(image, {on_coarse(1), on_coarse(2), on_coarse(0)}, hn::Zero(bits));
     auto fine = at_level(level);
     const auto next_level = hn::And(hn::BitCast(bits, share), pair_bits(0xff));
     if (!hn::AllTrue(bits, hn::Eq(next_level, hn::Zero(bits)))) {
         const auto next = at_level(hn::Add(level, pair_bits(1)));
         fine = hn::Add(fine, share_of(hn::Sub(next, fine), hn::BitCast(whole, next_level)));
     }
-    const auto through = hn::BitCast(whole, hn::And(hn::ShiftRight<18>(places.level), pair_bits(0xff)));
+    const auto through = hn::BitCast(whole, hn::And(hn::ShiftRight<17>(places.level), pair_bits(0xff)));
     const auto before = hn::Sub(all, through);
     const auto both = hn::Add(share_of(fine, hn::Sub(all, share_of(through, through))),
         share_of(coarse, hn::Sub(all, share_of(before, before))));
@@ -637,26 +592,26 @@ private:
         const DetailPositions d = below.places(from.first + from.phase);
         const auto differs =
             hn::And(hn::Or(hn::Xor(a.level, b.level), hn::Or(hn::Xor(a.level, c.level), hn::Xor(a.level, d.level))),
-                pair_bits(~0U << DetailPositions::scale_shift | DetailPositions::ground | DetailPositions::sides));
+                pair_bits(~0U << DetailPositions::scale_shift | DetailPositions::ground));
         const auto has_none = hn::AndNot(a.level, pair_bits(DetailPositions::ground));
         const auto is_alike =
             hn::And(hn::RebindMask(bits, pairs.is_linear), hn::Eq(hn::Or(differs, has_none), hn::Zero(bits)));
         const auto mean = [&](auto i, auto j, auto k, auto l)
                               HWY_ATTR { return hn::ShiftRight<2>(hn::Add(hn::Add(i, j), hn::Add(k, l))); };
-        const auto flags = hn::And(a.level, pair_bits(7));
-        const auto level = hn::AndNot(pair_bits(7), mean(a.level, b.level, c.level, d.level));
-        DetailPositions places{mean(a.fine_x, b.fine_x, c.fine_x, d.fine_x),
-            mean(a.fine_y, b.fine_y, c.fine_y, d.fine_y), mean(a.coarse_x, b.coarse_x, c.coarse_x, d.coarse_x),
-            mean(a.coarse_y, b.coarse_y, c.coarse_y, d.coarse_y), hn::Or(level, flags),
+        const auto flag = pair_bits(DetailPositions::ground);
+        const auto level = hn::AndNot(flag, mean(a.level, b.level, c.level, d.level));
+        DetailPositions places{a.fine, hn::Or(level, hn::And(a.level, flag)),
             hn::IfThenElseZero(is_ground, mean(a.left, b.left, c.left, d.left))};
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            places.fine[axis] = mean(a.fine[axis], b.fine[axis], c.fine[axis], d.fine[axis]);
+        }
         const auto is_other = hn::AndNot(is_alike, is_ground);
         if (!hn::AllFalse(bits, is_other)) {
             const DetailPositions own = found(from.row, from.phase, from.first);
             const auto is_own = hn::RebindMask(whole, is_other);
-            places.fine_x = hn::IfThenElse(is_own, own.fine_x, places.fine_x);
-            places.fine_y = hn::IfThenElse(is_own, own.fine_y, places.fine_y);
-            places.coarse_x = hn::IfThenElse(is_own, own.coarse_x, places.coarse_x);
-            places.coarse_y = hn::IfThenElse(is_own, own.coarse_y, places.coarse_y);
+            for (std::size_t axis = 0; axis < 3; ++axis) {
+                places.fine[axis] = hn::IfThenElse(is_own, own.fine[axis], places.fine[axis]);
+            }
             places.level = hn::IfThenElse(is_other, own.level, places.level);
             places.left = hn::IfThenElse(is_other, own.left, places.left);
         }

@@ -1,6 +1,8 @@
-// Sums of gradient noise (K. Perlin, "Improving Noise", SIGGRAPH 2002) whose lattices divide the tile, so that it
-// repeats without a seam.
+// Sums of gradient noise in space (K. Perlin, "Improving Noise", SIGGRAPH 2002) whose lattices divide the cube, so that
+// it repeats without a seam.
 #include "visuals/scene/detail_pattern.h"
+
+#include <glm/geometric.hpp>
 
 #include <algorithm>
 #include <array>
@@ -11,78 +13,75 @@ namespace octant::visuals::scene {
 
 namespace {
 
+/// Noise whose features are as wide as a cell of its lattice, texels of the level that shows it.
 struct Octave {
     int cell_texels;
     float weight;
 };
 
-constexpr std::array octaves = {Octave{2, 0.55F}, Octave{4, 0.8F}, Octave{8, 0.9F}, Octave{16, 0.8F}, Octave{32, 0.75F},
-    Octave{64, 0.6F}, Octave{128, 0.45F}};
+constexpr std::array octaves = {
+    Octave{DetailPattern::min_feature_texels, 0.3F}, Octave{8, 0.65F}, Octave{16, 1.0F}, Octave{32, 1.0F}};
 
-/// Sixteen directions around, so that no lattice line is seen.
-constexpr std::array<glm::vec2, 16> directions = {glm::vec2(1.0F, 0.0F), {0.924F, 0.383F}, {0.707F, 0.707F},
-    {0.383F, 0.924F}, {0.0F, 1.0F}, {-0.383F, 0.924F}, {-0.707F, 0.707F}, {-0.924F, 0.383F}, {-1.0F, 0.0F},
-    {-0.924F, -0.383F}, {-0.707F, -0.707F}, {-0.383F, -0.924F}, {0.0F, -1.0F}, {0.383F, -0.924F}, {0.707F, -0.707F},
-    {0.924F, -0.383F}};
+/// Directions all around: two parts of one size and one of twice that, then (1, 1, 1), of length 1.
+std::array<glm::vec3, 32> make_directions() {
+    std::array<glm::vec3, 32> directions{};
+    const float sixth = 1.0F / std::sqrt(6.0F);
+    const float third = 1.0F / std::sqrt(3.0F);
+    for (unsigned i = 0; i < directions.size(); ++i) {
+        const glm::vec3 signs((i & 1U) != 0 ? -1.0F : 1.0F, (i & 2U) != 0 ? -1.0F : 1.0F, (i & 4U) != 0 ? -1.0F : 1.0F);
+        glm::vec3 sizes(i < 24U ? sixth : third);
+        if (i < 24U) { sizes[static_cast<glm::length_t>(i / 8U)] *= 2.0F; }
+        directions[i] = signs * sizes;
+    }
+    return directions;
+}
 
-glm::vec2 direction_at(int column, int row, int salt) {
-    std::uint32_t h = static_cast<std::uint32_t>(column) * 0x9e3779b1U ^ static_cast<std::uint32_t>(row) * 0x85ebca77U ^
-                      static_cast<std::uint32_t>(salt) * 0xc2b2ae3dU;
-    h = (h ^ (h >> 15U)) * 0x2c1b3c6dU;
-    h = (h ^ (h >> 12U)) * 0x297a2d39U;
-    return directions[(h ^ (h >> 15U)) >> 28U];
+/// A lattice's directions at its points, `cells` along a side.
+std::vector<glm::vec3> lattice_of(int cells, int salt) {
+    const std::array<glm::vec3, 32> directions = make_directions();
+    std::vector<glm::vec3> lattice;
+    const auto points = static_cast<std::uint32_t>(cells * cells * cells);
+    lattice.reserve(points);
+    for (std::uint32_t point = 0; point < points; ++point) {
+        std::uint32_t h = point * 0x9e3779b1U ^ static_cast<std::uint32_t>(salt) * 0xc2b2ae3dU;
+        h = (h ^ (h >> 15U)) * 0x2c1b3c6dU;
+        h = (h ^ (h >> 12U)) * 0x297a2d39U;
+        lattice.push_back(directions[(h ^ (h >> 15U)) >> 27U]);
+    }
+    return lattice;
 }
 
 float eased(float t) { return t * t * t * (t * (t * 6.0F - 15.0F) + 10.0F); }
 
-/// Adds one octave's noise of a row of texels to their sums.
-void add_octave(const Octave& octave, int row, std::vector<float>& sums) {
-    const int cells = DetailPattern::side_texels / octave.cell_texels;
-    const int south = row / octave.cell_texels;
-    const int north = (south + 1) % cells;
-    const auto by_cell = 1.0F / static_cast<float>(octave.cell_texels);
-    const float v = (static_cast<float>(row % octave.cell_texels) + 0.5F) * by_cell;
-    const float up = eased(v);
-    for (int cell = 0; cell < cells; ++cell) {
-        const int east = (cell + 1) % cells;
-        const glm::vec2 a = direction_at(cell, south, octave.cell_texels);
-        const glm::vec2 b = direction_at(east, south, octave.cell_texels);
-        const glm::vec2 c = direction_at(cell, north, octave.cell_texels);
-        const glm::vec2 d = direction_at(east, north, octave.cell_texels);
-        for (int i = 0; i < octave.cell_texels; ++i) {
-            const float u = (static_cast<float>(i) + 0.5F) * by_cell;
-            const float right = eased(u);
-            const float low = (1.0F - right) * (a.x * u + a.y * v) + right * (b.x * (u - 1.0F) + b.y * v);
-            const float high =
-                (1.0F - right) * (c.x * u + c.y * (v - 1.0F)) + right * (d.x * (u - 1.0F) + d.y * (v - 1.0F));
-            sums[static_cast<std::size_t>(cell * octave.cell_texels + i)] += octave.weight * (low + up * (high - low));
+/// Adds the noise of one octave to the texels of a level of a size.
+void add_octave(const Octave& octave, int salt, int size, std::vector<float>& texels) {
+    const int cells = size / octave.cell_texels;
+    const std::vector<glm::vec3> lattice = lattice_of(cells, salt);
+    const float by_cell = 1.0F / static_cast<float>(octave.cell_texels);
+    const auto part_of = [&](int texel) { return (static_cast<float>(texel % octave.cell_texels) + 0.5F) * by_cell; };
+    std::size_t at = 0;
+    for (int z = 0; z < size; ++z) {
+        for (int y = 0; y < size; ++y) {
+            for (int x = 0; x < size; ++x, ++at) {
+                const glm::vec3 part(part_of(x), part_of(y), part_of(z));
+                float sum = 0.0F;
+                for (int corner = 0; corner < 8; ++corner) {
+                    const glm::ivec3 far(corner & 1, corner >> 1 & 1, corner >> 2);
+                    const glm::ivec3 cell = (glm::ivec3(x, y, z) / octave.cell_texels + far) % cells;
+                    const glm::vec3 from = part - glm::vec3(far);
+                    float share = 1.0F;
+                    for (glm::length_t axis = 0; axis < 3; ++axis) {
+                        const float away = eased(part[axis]);
+                        share *= far[axis] != 0 ? away : 1.0F - away;
+                    }
+                    const auto number = static_cast<std::size_t>((cell.z * cells + cell.y) * cells + cell.x);
+                    const glm::vec3& gradient = lattice[number];
+                    sum += share * (gradient.x * from.x + gradient.y * from.y + gradient.z * from.z);
+                }
+                texels[at] += octave.weight * sum;
+            }
         }
     }
-}
-
-/// Values of a level, row by row.
-std::vector<float> make_noise() {
-    const auto size = static_cast<std::size_t>(DetailPattern::side_texels);
-    std::vector<float> noise;
-    noise.reserve(size * size);
-    std::vector<float> sums(size);
-    for (int row = 0; row < DetailPattern::side_texels; ++row) {
-        std::ranges::fill(sums, 0.0F);
-        for (const Octave& octave : octaves) { add_octave(octave, row, sums); }
-        noise.insert(noise.end(), sums.begin(), sums.end());
-    }
-    return noise;
-}
-
-std::vector<float> half_of(const std::vector<float>& noise, std::size_t size) {
-    std::vector<float> half;
-    half.reserve(noise.size() / 4);
-    for (std::size_t row = 0; row < size; row += 2) {
-        for (std::size_t at = row * size; at < (row + 1) * size; at += 2) {
-            half.push_back(0.25F * ((noise[at] + noise[at + 1]) + (noise[at + size] + noise[at + size + 1])));
-        }
-    }
-    return half;
 }
 
 /// Bytes of the mean and the deviation that all levels have; what lies beyond a byte is cut, a few texels in a
@@ -109,14 +108,18 @@ DetailPattern level_of(const std::vector<float>& noise, int size) {
 
 using Levels = std::array<DetailPattern, DetailPattern::levels_per_scale + 1>;
 
+/// The same features have the same noise in all levels.
 Levels make_mip_levels() {
     Levels levels;
-    std::vector<float> noise = make_noise();
-    int size = DetailPattern::side_texels;
+    int halvings = 0;
     for (DetailPattern& level : levels) {
+        const int size = DetailPattern::side_texels >> halvings;
+        std::vector<float> noise(static_cast<std::size_t>(size * size * size));
+        for (const Octave& octave : octaves) {
+            if (octave.cell_texels < size) { add_octave(octave, octave.cell_texels << halvings, size, noise); }
+        }
         level = level_of(noise, size);
-        noise = half_of(noise, static_cast<std::size_t>(size));
-        size /= 2;
+        ++halvings;
     }
     return levels;
 }
@@ -133,12 +136,16 @@ double detail_tile_m(int scale) {
            static_cast<double>(DetailPattern::texels_per_m);
 }
 
-glm::dvec2 detail_tile_position(const glm::dvec3& place_m, int scale) {
-    const bool is_even = scale % 2 == 0;
-    const glm::dvec2 lean_m = glm::dvec2(DetailPattern::shift_per_height) * place_m.z;
-    const glm::dvec2 level_m = glm::dvec2(place_m) + (is_even ? lean_m : -lean_m);
-    const glm::dvec2 turned_m = is_even ? level_m : glm::dvec2(level_m.y, -level_m.x);
-    return turned_m / detail_tile_m(scale);
+double detail_texels_per_m(double focal_px) {
+    const double finer = std::clamp(focal_px / DetailPattern::nominal_focal_px, 1.0, 2.0);
+    return static_cast<double>(DetailPattern::texels_per_m) * finer;
+}
+
+glm::dvec3 detail_tile_position(const glm::dvec3& place_m, int scale) {
+    const auto& axes = DetailPattern::axes;
+    const glm::dvec3 along(glm::dot(axes[0], place_m), glm::dot(axes[1], place_m), glm::dot(axes[2], place_m));
+    const auto axis = [&](int number) { return along[(number + scale) % 3]; };
+    return glm::dvec3(axis(0), axis(1), axis(2)) / detail_tile_m(scale);
 }
 
 } // namespace octant::visuals::scene

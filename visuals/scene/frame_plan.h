@@ -256,10 +256,8 @@ struct Haze {
 /// and by its vertex's alpha, which is the number of a mixture of land covers (LandCoverContrast). Haze weakens the
 /// variation.
 struct DetailTexture {
-    /// The eye's position in the pattern at each scale, in tiles, 0..1.
-    std::array<glm::vec2, DetailPattern::scales> at_eye{};
-    /// The eye's height above the pattern's origin at each scale, in tiles, 0..1, for slopes that show it upright.
-    std::array<float, DetailPattern::scales> eye_height_tiles{};
+    /// The eye's position in the pattern at each scale, in cubes, 0..1.
+    std::array<glm::vec3, DetailPattern::scales> at_eye{};
     std::shared_ptr<const LandCoverContrast> contrast;
 };
 

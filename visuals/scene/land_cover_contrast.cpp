@@ -12,8 +12,9 @@ namespace octant::visuals::scene {
 
 namespace {
 
-/// Standard deviations of the pattern over which one cover gives way to the other.
-constexpr double border_width = 0.6;
+/// Standard deviations of the pattern over which one cover gives way to the other: about four pixels, so that a turn by
+/// half a pixel changes little.
+constexpr double border_width = 2.2;
 /// Of the difference in hue: means are seldom of the very colours that covers are said to have.
 constexpr double hue_share = 0.45;
 constexpr double min_mean = 1e-3;

@@ -18,8 +18,8 @@ struct LandCover {
 
 /// The deviation of a ground pixel's colour from the mean colour of its vertices. A vertex has a number from 0 to 255
 /// for its mixture of two land covers: 0 = none, then one pure cover at every 64 (the last at 255), mixtures in
-/// between. The detail pattern chooses one of the two covers at each pixel, so that borders are sharp and irregular
-/// however far apart vertices are; the mean over the pattern does not change.
+/// between. The detail pattern shares each pixel among the two covers, so that borders are irregular however far apart
+/// vertices are, and some pixels wide; the mean over the pattern does not change.
 class LandCoverContrast {
 public:
     static constexpr int covers = 4;

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 using namespace octant::visuals::nature;
 
@@ -16,7 +17,7 @@ const glm::vec3 mean_colour(0.4F, 0.5F, 0.3F);
 
 /// Ground that rises to the east, brighter there, over 4 x 2 km.
 BackdropSource slope(std::vector<glm::dvec2>* asked = nullptr) {
-    return {{2000.0, 1000.0}, mean_m, mean_colour,
+    return {{2000.0, 1000.0}, mean_m, mean_colour, std::nullopt,
         [asked](const glm::dvec2& at_m) {
             if (asked != nullptr) { asked->push_back(at_m); }
             return mean_m + 0.1 * at_m.x;
@@ -56,6 +57,24 @@ TEST_CASE("only places on the map are asked for, whatever its shape") {
     for (const glm::dvec2& at_m : asked) {
         REQUIRE(std::abs(at_m.x) <= 2000.0);
         REQUIRE(std::abs(at_m.y) <= 1000.0);
+    }
+}
+
+TEST_CASE("where a map ends in water, water goes on to the horizon, and land elsewhere") {
+    BackdropSource coast = slope();
+    coast.water_level_m = mean_m - 50.0; // west of the map's x = -500
+    const Backdrop land = make_backdrop(coast);
+    REQUIRE(land.outer_vertices > 0);
+    for (std::size_t i = 0; i < land.outer_vertices; ++i) {
+        const Backdrop::BackdropVertex& corner = land.vertices[i];
+        if (corner.at_m.x > -499.0) { continue; }
+        CHECK(corner.is_water);
+        CHECK(corner.at_m.z == mean_m - 50.0);
+    }
+    for (const Backdrop::BackdropVertex& corner : land.vertices) {
+        if (corner.at_m.x > 2500.0 && corner.at_m.x < 4000.0 && std::abs(corner.at_m.y) < 1000.0) {
+            CHECK_FALSE(corner.is_water);
+        }
     }
 }
 

@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 
 #include <cmath>
+#include <utility>
 
 using octant::visuals::nature::climate_of;
 
@@ -21,10 +22,22 @@ TEST_CASE("trees and snow are where travellers find them") {
 }
 
 TEST_CASE("deserts are arid, also across the date line's count, and the rest is not") {
-    CHECK(climate_of(36.1, -112.1).arid); // Grand Canyon
-    CHECK(climate_of(23.0, 5.0).arid);    // Hoggar
-    CHECK(climate_of(-25.3, 131.0 - 360.0).arid);
-    CHECK_FALSE(climate_of(46.5, 8.0).arid);
-    CHECK_FALSE(climate_of(28.0, 87.0).arid);
-    CHECK_FALSE(climate_of(45.0, -70.0).arid);
+    CHECK(climate_of(36.1, -112.1).is_arid()); // Grand Canyon
+    CHECK(climate_of(23.0, 5.0).is_arid());    // Hoggar
+    CHECK(climate_of(-25.3, 131.0 - 360.0).is_arid());
+    CHECK_FALSE(climate_of(46.5, 8.0).is_arid());
+    CHECK_FALSE(climate_of(28.0, 87.0).is_arid());
+    CHECK_FALSE(climate_of(45.0, -70.0).is_arid());
+}
+
+TEST_CASE("plains and coasts of half-dry climates are neither deserts nor moist") {
+    for (const auto& [latitude, longitude] : {std::pair(40.2, -104.0), {34.3, -118.0}, {39.0, -3.0}, {48.0, 68.0}}) {
+        CAPTURE(latitude, longitude);
+        CHECK(climate_of(latitude, longitude).dryness > 0.3F);
+        CHECK_FALSE(climate_of(latitude, longitude).is_arid());
+    }
+    for (const auto& [latitude, longitude] : {std::pair(51.0, 0.5), {49.5, -123.0}, {35.4, 138.7}, {-3.0, -60.0}}) {
+        CAPTURE(latitude, longitude);
+        CHECK(climate_of(latitude, longitude).dryness == 0.0F);
+    }
 }

@@ -22,10 +22,38 @@ namespace {
 constexpr glm::ivec2 picture_px{256, 192};
 constexpr std::uint32_t half_and_half = 0x60808080U; ///< between the first two covers
 constexpr std::uint32_t second_cover = 0x80808080U;
+constexpr std::uint32_t woods_and_meadows = 0x60505050U; ///< as bright as they are under the usual sun
 constexpr std::uint32_t water = 0x00808080U;
-constexpr std::array at_eye{
-    glm::vec2(0.3F, 0.8F), glm::vec2(0.55F, 0.1F), glm::vec2(0.7F, 0.4F), glm::vec2(0.2F, 0.9F)};
-constexpr std::array eye_height_tiles{0.15F, 0.65F, 0.35F, 0.85F};
+const glm::dvec3 eye_m(1234.5, -567.8, 910.1); ///< of the world, where the pattern begins at its origin
+
+/// A place along the pattern's axes at a scale, in texels of its finest level.
+glm::dvec3 texels_of(const glm::dvec3& place_m, int scale) {
+    const double texels_per_m = 8.0 / std::pow(4.0, scale);
+    glm::dvec3 along(0.0);
+    for (int i = 0; i < 3; ++i) {
+        const glm::dvec3& axis = scene::DetailPattern::axes[static_cast<std::size_t>((i + scale) % 3)];
+        along[i] = texels_per_m * (axis.x * place_m.x + axis.y * place_m.y + axis.z * place_m.z);
+    }
+    return along;
+}
+
+/// The eye's place in the pattern at each scale, in cubes.
+std::array<glm::vec3, scene::DetailPattern::scales> places_at_eye() {
+    std::array<glm::vec3, scene::DetailPattern::scales> places{};
+    for (int scale = 0; scale < scene::DetailPattern::scales; ++scale) {
+        places[static_cast<std::size_t>(scale)] = glm::vec3(glm::fract(texels_of(eye_m, scale) / 64.0));
+    }
+    return places;
+}
+
+const std::array at_eye = places_at_eye();
+
+/// As of temperate ground.
+std::shared_ptr<const scene::LandCoverContrast> woods_beside_meadows() {
+    const scene::LandCover woods{glm::vec3(0.14F, 0.25F, 0.12F), 0.17F};
+    const scene::LandCover meadows{glm::vec3(0.37F, 0.47F, 0.22F), 0.08F};
+    return std::make_shared<const scene::LandCoverContrast>(std::array{woods, meadows, woods, meadows});
+}
 
 std::shared_ptr<const scene::LandCoverContrast> dark_and_bright() {
     const scene::LandCover dark{glm::vec3(0.2F), 0.05F};
@@ -40,7 +68,6 @@ struct Slope {
     double down;
     int columns = picture_px.x; ///< of the picture that are judged
     int drawn_columns = picture_px.x;
-    bool is_upright = false; ///< so steep that it shows the pattern upright
 
     double inverse_depth(const glm::dvec2& at_px) const {
         return at_corner + across * at_px.x / picture_px.x + down * at_px.y / picture_px.y;
@@ -50,7 +77,7 @@ struct Slope {
 /// Falls away from the lower left corner, seen from above.
 constexpr Slope gentle{1.0 / 30.0, -0.016, 0.012};
 /// Its normal leans towards the west by two and a half times as much as it reaches up.
-constexpr Slope steep{0.07, -0.1, 0.0, picture_px.x / 2, picture_px.x / 2 + 32, true};
+constexpr Slope steep{0.07, -0.1, 0.0, picture_px.x / 2, picture_px.x / 2 + 32};
 
 /// The slope, cut into triangles of so many pixels.
 void paint_slope(FlatPlan& plan, int cell_px, std::uint32_t colour, const Slope& slope = gentle) {
@@ -60,7 +87,7 @@ void paint_slope(FlatPlan& plan, int cell_px, std::uint32_t colour, const Slope&
 }
 
 void set_detail_texture(FlatPlan& plan) {
-    plan.plan().detail_texture = scene::DetailTexture{at_eye, eye_height_tiles, dark_and_bright()};
+    plan.plan().detail_texture = scene::DetailTexture{at_eye, dark_and_bright()};
 }
 
 /// Where a pixel's middle sees the slope, metres from the eye.
@@ -71,40 +98,30 @@ glm::dvec3 seen_from_eye_m(const glm::dvec2& at_px, const Slope& slope) {
 }
 
 /// Where that lies in the pattern at a scale, in texels of its finest level.
-glm::dvec2 texels_at(const glm::dvec3& from_eye_m, int scale, bool is_upright) {
-    using scene::DetailPattern;
-    const auto at = static_cast<std::size_t>(scale);
-    const bool is_odd = scale % 2 != 0;
-    const double sign = is_odd ? -1.0 : 1.0;
-    const double east = from_eye_m.x + sign * static_cast<double>(DetailPattern::shift_per_height.x) * from_eye_m.z;
-    const double north = from_eye_m.y + sign * static_cast<double>(DetailPattern::shift_per_height.y) * from_eye_m.z;
-    const double texels_per_m = 8.0 / std::pow(16.0, scale);
-    glm::dvec2 turned = is_odd ? glm::dvec2(north, -east) : glm::dvec2(east, north);
-    glm::dvec2 eye(at_eye[at]);
-    if (is_upright) {
-        (is_odd ? turned.y : turned.x) = sign * from_eye_m.z;
-        (is_odd ? eye.y : eye.x) = sign * static_cast<double>(eye_height_tiles[at]);
-    }
-    return turned * texels_per_m + eye * static_cast<double>(DetailPattern::side_texels);
+glm::dvec3 texels_at(const glm::dvec3& from_eye_m, int scale) {
+    return texels_of(from_eye_m, scale) + glm::dvec3(at_eye[static_cast<std::size_t>(scale)]) * 64.0;
 }
 
-/// The pattern in a level between four texels around a place in texels of the finest one, -1 to 1.
-double pattern_at(double in_level, const glm::dvec2& texels) {
+/// The pattern in a level between eight texels around a place in texels of the finest one, -1 to 1.
+double pattern_at(double in_level, const glm::dvec3& texels) {
     const auto& level = scene::detail_mip_levels()[static_cast<std::size_t>(in_level)];
-    const glm::dvec2 at = texels / std::exp2(in_level) - 0.5;
-    const glm::dvec2 low = glm::floor(at);
-    const auto texel = [&](int right, int up) {
-        const auto within = [&](double place) {
-            const auto whole = static_cast<std::int64_t>(place);
-            return static_cast<std::size_t>((whole % level.size + level.size) % level.size);
-        };
-        const std::size_t row = within(low.y + up);
-        return level.texels[row * static_cast<std::size_t>(level.size) + within(low.x + right)];
+    const glm::dvec3 at = texels / std::exp2(in_level) - 0.5;
+    const glm::dvec3 low = glm::floor(at);
+    const glm::dvec3 part = at - low;
+    const auto within = [&](double place) {
+        const auto whole = static_cast<std::int64_t>(place);
+        return static_cast<std::size_t>((whole % level.size + level.size) % level.size);
     };
-    const glm::dvec2 part = at - low;
-    const double south = texel(0, 0) * (1.0 - part.x) + texel(1, 0) * part.x;
-    const double north = texel(0, 1) * (1.0 - part.x) + texel(1, 1) * part.x;
-    return (south * (1.0 - part.y) + north * part.y) / 128.0 - 1.0;
+    const auto size = static_cast<std::size_t>(level.size);
+    double sum = 0.0;
+    for (int corner = 0; corner < 8; ++corner) {
+        const glm::dvec3 far(corner & 1, corner >> 1 & 1, corner >> 2);
+        const glm::dvec3 shares = glm::mix(1.0 - part, part, far);
+        const glm::dvec3 texel = low + far;
+        const std::size_t number = (within(texel.z) * size + within(texel.y)) * size + within(texel.x);
+        sum += shares.x * shares.y * shares.z * level.texels[number];
+    }
+    return sum / 128.0 - 1.0;
 }
 
 /// Between which values the pattern at a pixel lies, up to half a level finer and coarser than the size of what it sees
@@ -123,13 +140,13 @@ Range pattern_around(const glm::dvec2& at_px, const Slope& slope) {
     Range range;
     for (const double off : {-0.75, -0.5, -0.25, 0.0, 0.25}) {
         const double level = std::clamp(std::log2(8.0 * wide_m) + off, 0.0, 11.99);
-        const int scale = static_cast<int>(level / 4.0);
-        const double through = level / 4.0 - scale;
+        const int scale = static_cast<int>(level / 2.0);
+        const double through = level / 2.0 - scale;
         for (const double beside : {-1.0, 0.0, 1.0}) { // between two pixels it is even
             const glm::dvec3 seen = seen_from(beside, 0.0);
-            const glm::dvec2 fine = texels_at(seen, scale, slope.is_upright);
-            const double coarse = pattern_at(0.0, texels_at(seen, scale + 1, slope.is_upright));
-            for (const double rounded : {std::floor(4.0 * through), std::ceil(4.0 * through)}) {
+            const glm::dvec3 fine = texels_at(seen, scale);
+            const double coarse = pattern_at(0.0, texels_at(seen, scale + 1));
+            for (const double rounded : {std::floor(2.0 * through), std::ceil(2.0 * through)}) {
                 const double value = pattern_at(rounded, fine) * (1.0 - through * through) +
                                      coarse * (1.0 - (1.0 - through) * (1.0 - through));
                 range = {std::min(range.min, value), std::max(range.max, value)};
@@ -204,7 +221,7 @@ TEST_CASE("each pixel has the cover that the detail texture chooses at its place
             for (const int samples : {1, 16}) {
                 const Chosen chosen = chosen_in(drawn(plan.plan(), picture_px, samples), slope);
                 const int pixels = slope.columns * picture_px.y;
-                CAPTURE(slope.is_upright, cell_px, samples);
+                CAPTURE(slope.across, cell_px, samples);
                 CHECK(chosen.wrong < pixels / 500);
                 CHECK(chosen.dark > pixels / 10);
                 CHECK(chosen.bright > pixels / 10);
@@ -221,8 +238,8 @@ TEST_CASE("the detail texture leaves the mean colour as it is, whatever the grou
         set_detail_texture(plan);
         double mean = 0.0;
         for (int place = 0; place < places; ++place) {
-            for (glm::vec2& eye : plan.plan().detail_texture->at_eye) {
-                eye = glm::fract(eye + glm::vec2(0.37F, 0.21F));
+            for (glm::vec3& eye : plan.plan().detail_texture->at_eye) {
+                eye = glm::fract(eye + glm::vec3(0.37F, 0.21F, 0.43F));
             }
             mean += mean_level(drawn(plan.plan(), picture_px, 16)) / places;
         }
@@ -266,13 +283,15 @@ TEST_CASE("the detail texture moves with the ground and does not shimmer") {
         FlatTriangle wall;
         wall.at_px = {glm::vec2(-400.0F, -10.0F), glm::vec2(700.0F, -10.0F), glm::vec2(128.0F, 900.0F)};
         wall.depth_m.fill(40.0F);
-        wall.colour.fill(half_and_half);
+        wall.colour.fill(woods_and_meadows);
         plan.paint({wall});
         set_detail_texture(plan);
+        plan.plan().detail_texture->contrast = woods_beside_meadows();
         for (std::size_t scale = 0; scale < at_eye.size(); ++scale) {
-            const float tiles = px * px_m / (64.0F * std::exp2(4.0F * static_cast<float>(scale)));
-            glm::vec2& eye = plan.plan().detail_texture->at_eye[scale];
-            (scale % 2 == 0 ? eye.x : eye.y) += scale % 2 == 0 ? tiles : -tiles;
+            const glm::dvec3 east_m(static_cast<double>(px * px_m), 0.0, 0.0);
+            const glm::dvec3 here = texels_at(glm::dvec3(0.0), static_cast<int>(scale));
+            const glm::dvec3 moved_by = texels_at(east_m, static_cast<int>(scale)) - here;
+            plan.plan().detail_texture->at_eye[scale] += glm::vec3(moved_by / 64.0);
         }
         return drawn(plan.plan(), picture_px, 16);
     };
@@ -281,14 +300,18 @@ TEST_CASE("the detail texture moves with the ground and does not shimmer") {
     const scene::Picture whole = moved(1.0F);
     double by_half = 0.0;
     double by_neighbour = 0.0;
+    int crawling = 0;
     for (int y = 0; y < picture_px.y; ++y) {
         for (int x = 0; x + 1 < picture_px.x; ++x) {
-            by_half += std::abs(pixel(half, x, y).x - pixel(first, x, y).x);
+            const int changed = std::abs(pixel(half, x, y).x - pixel(first, x, y).x);
+            by_half += changed;
+            crawling += changed > 16 ? 1 : 0;
             by_neighbour += std::abs(pixel(first, x + 1, y).x - pixel(first, x, y).x);
         }
     }
     CHECK(by_neighbour > 2.0 * picture_px.x * picture_px.y);
     CHECK(by_half < 0.8 * by_neighbour);
+    CHECK(crawling < picture_px.x * picture_px.y / 300);
     // Two pixels on, what was looked up at every second pixel is the same again.
     const scene::Picture twice = moved(2.0F);
     double off = 0.0;
@@ -366,7 +389,7 @@ TEST_CASE("where something covers a part of a pixel its ground keeps the colour 
         }
     }
     CHECK(edges > 1000);
-    CHECK(wrong < 20);
+    CHECK(wrong < edges / 100);
 }
 
 } // namespace octant::visuals::raster

@@ -68,8 +68,8 @@ scene::FramePlan& FlatPlan::plan() {
 scene::DetailTexture strong_detail() {
     const scene::LandCover dark{glm::vec3(0.2F, 0.25F, 0.15F), 0.1F};
     const scene::LandCover bright{glm::vec3(0.6F, 0.55F, 0.5F), 0.1F};
-    return {{glm::vec2(0.2F, 0.6F), glm::vec2(0.9F, 0.1F), glm::vec2(0.4F, 0.7F), glm::vec2(0.5F)},
-        {0.3F, 0.8F, 0.1F, 0.6F},
+    return {{glm::vec3(0.2F, 0.6F, 0.3F), glm::vec3(0.9F, 0.1F, 0.8F), glm::vec3(0.4F, 0.7F, 0.1F), glm::vec3(0.5F),
+                glm::vec3(0.8F, 0.3F, 0.6F), glm::vec3(0.1F, 0.4F, 0.9F), glm::vec3(0.6F, 0.2F, 0.7F)},
         std::make_shared<const scene::LandCoverContrast>(std::array{dark, bright, dark, bright})};
 }
 

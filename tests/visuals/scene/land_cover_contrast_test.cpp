@@ -3,6 +3,7 @@
 
 #include <catch2/catch.hpp>
 #include <glm/common.hpp>
+#include <glm/geometric.hpp>
 
 #include <array>
 #include <cmath>
@@ -51,18 +52,22 @@ TEST_CASE("over the fine pattern colours change by nothing, of whatever covers t
     }
 }
 
-TEST_CASE("where two covers are mixed, each is seen on its share of the ground") {
-    const LandCoverContrast contrast({wood, meadow, rock, snow});
+TEST_CASE("where two covers are mixed, each has the larger part of a pixel on its share of the ground") {
+    const LandCover dark{wood.colour, 0.0F};
+    const LandCover bright_cover{meadow.colour, 0.0F};
+    const LandCoverContrast contrast({dark, bright_cover, rock, snow});
     const auto shares = share_of_patterns();
     for (const double meadows : {0.25, 0.5, 0.75}) {
         const int kind = 32 + static_cast<int>(32 * meadows);
         double bright = 0.0;
         for (int i = 0; i < LandCoverContrast::pattern_step_count; ++i) {
-            const bool is_bright = shares_at(contrast, kind, i).y > 0.0F;
+            const float middle = 0.5F * (shares_at(contrast, kind, 0).y +
+                                            shares_at(contrast, kind, LandCoverContrast::pattern_step_count - 1).y);
+            const bool is_bright = shares_at(contrast, kind, i).y > middle;
             bright += is_bright ? shares[static_cast<std::size_t>(i)] : 0.0;
         }
         CAPTURE(meadows);
-        CHECK(bright == Approx(meadows).margin(0.12));
+        CHECK(bright == Approx(meadows).margin(0.06));
     }
 }
 
@@ -78,6 +83,25 @@ TEST_CASE("nothing changes where there is no cover, and one alone is mottled by 
         squares += shares[static_cast<std::size_t>(i)] * share * share;
     }
     CHECK(std::sqrt(squares) == Approx(0.17).margin(0.02));
+}
+
+TEST_CASE("larger pictures show the pattern of 720 lines over 45 degrees, at most twice as many pixels wide") {
+    CHECK(detail_texels_per_m(400.0) == Approx(8.0));
+    CHECK(detail_texels_per_m(869.0) == Approx(8.0));
+    CHECK(detail_texels_per_m(1.5 * 869.0) == Approx(12.0));
+    CHECK(detail_texels_per_m(10.0 * 869.0) == Approx(16.0));
+}
+
+TEST_CASE("the axes of the fine pattern are at right angles, and every scale has its own tile") {
+    const auto& axes = DetailPattern::axes;
+    for (std::size_t i = 0; i < 3; ++i) {
+        CHECK(glm::dot(axes[i], axes[i]) == Approx(1.0).margin(1e-8));
+        CHECK(glm::dot(axes[i], axes[(i + 1) % 3]) == Approx(0.0).margin(1e-8));
+    }
+    const glm::dvec3 place_m = 64.0 / 8.0 * axes[1];
+    CHECK(glm::distance(detail_tile_position(place_m, 0), glm::dvec3(0.0, 1.0, 0.0)) < 1e-8);
+    CHECK(glm::distance(detail_tile_position(place_m, 1), glm::dvec3(0.25, 0.0, 0.0)) < 1e-8);
+    CHECK(glm::distance(detail_tile_position(place_m, 2), glm::dvec3(0.0, 0.0, 0.0625)) < 1e-8);
 }
 
 TEST_CASE("all levels of the fine pattern have one mean and one contrast") {
