@@ -578,7 +578,7 @@ public:
                 join_mesh(model_.body, std::move(part.mesh), {});
             }
         }
-        if (model_.body.triangles.empty()) { join_mesh(model_.body, std::exchange(model_.clear, {}).mesh, {}); }
+        if (model_.body.triangles.empty()) { join_mesh(model_.body, std::exchange(model_.clear, {}), {}); }
         if (model_.body.triangles.empty()) { throw_error_in(path_, "expected a model with a mesh, got none"); }
         if (const std::size_t all = model_.body.notes.size(); all > max_notes) {
             model_.body.notes.resize(max_notes);
@@ -724,18 +724,8 @@ private:
                     join_mesh(turning_mesh(animated.turns[i]), std::move(parts.groups[i]), placed);
                 }
             }
-            join_clear(std::move(parts.clear), placed);
+            if (!parts.clear.triangles.empty()) { join_mesh(model_.clear, std::move(parts.clear), placed); }
         } catch (const Error& fault) { note_once(fmt::format("{}; this sub-model is left out", fault.what())); }
-    }
-
-    void join_clear(TransparentSurfaces more, const AffineTransform& placed) {
-        const std::size_t count = more.mesh.triangles.size();
-        if (count == 0) { return; }
-        TransparentSurfaces& all = model_.clear;
-        join_mesh(all.mesh, std::move(more.mesh), placed);
-        const float share = static_cast<float>(count) / static_cast<float>(all.mesh.triangles.size());
-        all.opacity =
-            all.mesh.triangles.size() == count ? more.opacity : all.opacity + (more.opacity - all.opacity) * share;
     }
 
     /// A move within a model, within an AC3D file.
@@ -825,7 +815,7 @@ RotatingModel read_rotating_model(const fs::path& path, const ReadOptions& optio
 TriangleMesh read_flightgear_model(const fs::path& path, const ReadOptions& options) {
     RotatingModel model = read_rotating_model(path, options);
     for (RotatingPart& part : model.parts) { join_mesh(model.body, std::move(part.mesh), {}); }
-    join_mesh(model.body, std::move(model.clear.mesh), {});
+    join_mesh(model.body, std::move(model.clear), {});
     return std::move(model.body);
 }
 

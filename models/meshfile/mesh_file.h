@@ -57,7 +57,7 @@ struct RotatingPart {
 struct RotatingModel {
     TriangleMesh body; ///< never empty
     std::vector<RotatingPart> parts;
-    TransparentSurfaces clear;
+    TriangleMesh clear; ///< as MeshParts
 };
 
 /// As read_mesh, for the same files; only FlightGear's and YSFlight's models have parts. Throws Error.

@@ -43,17 +43,11 @@ struct ReadOptions {
     std::vector<std::set<std::string>> groups = {};
 };
 
-/// Transparent surfaces, such as the glass of canopies.
-struct TransparentSurfaces {
-    TriangleMesh mesh;    ///< may be empty
-    float opacity = 1.0F; ///< mean of the materials, between 0 and 1
-};
-
 /// A mesh in separate parts, any of which may be empty.
 struct MeshParts {
     TriangleMesh body;                ///< also has the notes of all parts
     std::vector<TriangleMesh> groups; ///< as ReadOptions::groups
-    TransparentSurfaces clear;
+    TriangleMesh clear;               ///< transparent surfaces, such as the glass of canopies: Material::opacity
 };
 
 } // namespace octant::models::meshfile
