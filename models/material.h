@@ -32,6 +32,15 @@ struct Material {
     SurfaceTexture texture = {};
     /// The file of the image by which the surface glows, or the name of one inside the mesh's file; empty = none.
     std::string emissive_picture = {};
+    /// The share of what is behind that it hides, 0..1.
+    float opacity = 1.0F;
 };
+
+/// Surfaces of less opacity are transparent, such as the glass of canopies; readers leave out those of less than
+/// seen_from_opacity, as nothing is seen of them.
+inline constexpr float opaque_from_opacity = 0.98F;
+inline constexpr float seen_from_opacity = 0.02F;
+
+inline bool is_transparent(const Material& material) { return material.opacity < opaque_from_opacity; }
 
 } // namespace octant::models

@@ -111,7 +111,7 @@ public:
         const auto [at, is_new] = material.index_by_picture.try_emplace(picture, invalid_index);
         if (is_new) {
             material.material.picture = picture;
-            at->second = mesh.add_material(material.material, material.opacity);
+            at->second = mesh.add_material(material.material);
         }
         return at->second;
     }
@@ -119,7 +119,6 @@ public:
 private:
     struct FileMaterial {
         Material material;
-        float opacity = 1.0F;
         std::map<std::string, std::uint32_t> index_by_picture = {}; ///< by pictures
     };
 
@@ -134,22 +133,22 @@ private:
         }
         const auto trans = std::ranges::find(parts, "trans");
         const bool has_trans = trans != parts.end() && trans + 1 != parts.end();
-        materials_.push_back({std::move(material), has_trans ? opacity_of(*(trans + 1)) : 1.0F, {}});
+        if (has_trans) { material.opacity = opacity_of(*(trans + 1)); }
+        materials_.push_back({std::move(material)});
     }
 
     /// Reads MAT "name", lines such as rgb R G B, ENDMAT, which version c of the format has.
     void read_block(TextScanner& words) {
         std::string_view rest = words.rest_of_line();
         Material material{.name = read_ac3d_name(rest, words)};
-        float opacity = 1.0F;
         for (std::string_view word; (word = words.word("ENDMAT")) != "ENDMAT";) {
             for (int part = 0; word == "rgb" && part < 3; ++part) {
                 material.colour[part] = colour_part(words.word("a part of a colour"), words);
             }
             const auto rest_words = split_words(words.rest_of_line());
-            if (word == "trans" && !rest_words.empty()) { opacity = opacity_of(rest_words[0]); }
+            if (word == "trans" && !rest_words.empty()) { material.opacity = opacity_of(rest_words[0]); }
         }
-        materials_.push_back({std::move(material), opacity, {}});
+        materials_.push_back({std::move(material)});
     }
 
     std::vector<FileMaterial> materials_;

@@ -692,7 +692,7 @@ public:
         join_turning();
         if (model_.body.triangles.empty()) { // all of it moves: then none of it does
             const std::vector<RotatingPart> parts = std::exchange(model_.parts, {});
-            const TransparentSurfaces clear = std::exchange(model_.clear, {});
+            const TriangleMesh clear = std::exchange(model_.clear, {});
             model_.body = mesh_at_rest({std::move(model_.body), parts, clear});
         }
         if (model_.body.triangles.empty()) { throw_error_in(path_, "expected a model with a mesh, got none"); }
@@ -886,7 +886,7 @@ private:
                                 : moving_mesh(nullptr, moved[i - animated.turns.size()].moves),
                     std::move(parts.groups[i]), placed);
             }
-            add_clear(model_.clear, std::move(parts.clear), placed);
+            join_mesh(model_.clear, std::move(parts.clear), placed);
         } catch (const Error& fault) { note_once(fmt::format("{}; this sub-model is left out", fault.what())); }
     }
 

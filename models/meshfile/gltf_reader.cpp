@@ -847,7 +847,6 @@ private:
         Material made{.name = name.is_string() ? name.get<std::string>() : fmt::format("material {}", index)};
         made.colour = glm::vec3(1.0F); // as glTF has it
         count_undrawn(json);
-        float opacity = 1.0F;
         const auto rough = json.find("pbrMetallicRoughness");
         if (rough != json.end() && rough->is_object()) {
             const auto c = data_.numbers(*rough, "baseColorFactor", {1.0, 1.0, 1.0, 1.0}, where);
@@ -855,7 +854,7 @@ private:
             check_colour(colour, where);
             made.colour = glm::vec3(srgb_from_linear(colour));
             if (json.value("alphaMode", Json()) == "BLEND") {
-                opacity = static_cast<float>(std::clamp(c[3], 0.0, 1.0));
+                made.opacity = static_cast<float>(std::clamp(c[3], 0.0, 1.0));
             }
         }
         if (const Json* glossy = extension_in(json, "KHR_materials_pbrSpecularGlossiness");
@@ -865,7 +864,7 @@ private:
             made.colour = glm::vec3(srgb_from_linear({c[0], c[1], c[2]}));
         }
         take_picture(data_, index, path_, made);
-        return materials_[index] = mesh_.add_material(std::move(made), opacity);
+        return materials_[index] = mesh_.add_material(std::move(made));
     }
 
     /// Texture coordinates that were added, by where they come from.

@@ -240,10 +240,6 @@ constexpr double unit_tolerance = 1e-6;
 
 constexpr glm::dvec3 upwards(0.0, 0.0, 1.0);
 
-/// Opacities of what is opaque, and of what is seen at all.
-constexpr float opaque_from = 0.98F;
-constexpr float seen_from = 0.02F;
-
 /// Of a picture that is mostly transparent: less is a hole in it, if evenly so more is glass.
 constexpr float glass_from = 0.05F;
 constexpr float mostly_there = 0.5F;
@@ -290,9 +286,8 @@ glm::vec2 MeshBuilder::on_picture(const CornerIndices& corner) const {
     return {coordinates.x, 1.0F - coordinates.y};
 }
 
-std::uint32_t MeshBuilder::add_material(Material material, float opacity) {
+std::uint32_t MeshBuilder::add_material(Material material) {
     mesh_.materials.push_back(std::move(material));
-    opacities_.push_back(opacity);
     return static_cast<std::uint32_t>(mesh_.materials.size() - 1);
 }
 
@@ -309,8 +304,7 @@ std::uint32_t MeshBuilder::shown_material(std::uint32_t material, const PolygonP
     if (is_new) {
         Material own = material == invalid_index ? Material{.name = "picture", .colour = glm::vec3(1.0F)}
                                                  : mesh_.materials[material];
-        const float opacity = material == invalid_index ? 1.0F : opacities_[material];
-        at->second = add_material(pictures_.shown_on(std::move(own), picture), opacity);
+        at->second = add_material(pictures_.shown_on(std::move(own), picture));
     }
     return at->second;
 }
@@ -373,8 +367,11 @@ void MeshBuilder::finish_part() {
     finish_texture_coordinates();
     finish_materials();
     leave_out_transparent();
+    if (is_clear_) {
+        give_materials_opacity();
+        blend_textures();
+    }
     bake_pictures();
-    if (is_clear_) { blend_textures(); }
     finish_backs();
 }
 
@@ -388,18 +385,19 @@ void MeshBuilder::blend_textures() {
 float MeshBuilder::opacity_of(std::size_t triangle) const {
     const std::uint32_t material = mesh_.triangle_materials[triangle];
     const bool has_glass = !covers_.empty() && is_glass(covers_[triangle]);
-    return (material == invalid_index ? 1.0F : opacities_[material]) * (has_glass ? covers_[triangle].opacity : 1.0F);
+    return (material == invalid_index ? 1.0F : mesh_.materials[material].opacity) *
+           (has_glass ? covers_[triangle].opacity : 1.0F);
 }
 
 void MeshBuilder::find_opacities() {
     if (!pictures_.is_empty() && mesh_.colours.empty() && covers_.empty()) { covers_ = pictures_.covers(); }
 }
 
-bool MeshBuilder::is_transparent(std::size_t triangle) const { return opacity_of(triangle) < opaque_from; }
+bool MeshBuilder::is_transparent(std::size_t triangle) const { return opacity_of(triangle) < opaque_from_opacity; }
 
 void MeshBuilder::drop_invisible() {
     std::vector<bool> gone;
-    for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) { gone.push_back(opacity_of(t) < seen_from); }
+    for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) { gone.push_back(opacity_of(t) < seen_from_opacity); }
     take_out(gone);
 }
 
@@ -441,28 +439,38 @@ MeshParts MeshBuilder::finish_parts() {
             parts.groups.push_back(grouped.part_of([&](std::size_t t) { return grouped.groups_[t] == group; }, notes));
         }
     }
-    parts.clear.mesh = part_of([&](std::size_t t) { return is_transparent(t); }, notes, true);
-    parts.clear.opacity = opacity_of_transparent();
+    parts.clear = part_of([&](std::size_t t) { return is_transparent(t); }, notes, true);
     parts.body.name = path_.stem().string();
     parts.body.notes = std::move(notes);
     return parts;
 }
 
-/// The mean over all transparent triangles. Where textures are kept the alpha of pictures is not part of it.
-float MeshBuilder::opacity_of_transparent() const {
-    constexpr double nearly_opaque = 0.998; // an opacity of 1 would say that nothing is blended
-    double sum = 0.0;
-    std::size_t count = 0;
-    for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
-        if (!is_transparent(t)) { continue; }
-        const std::uint32_t material = mesh_.triangle_materials[t];
-        const bool is_textured = material != invalid_index && mesh_.materials[material].texture.picture != nullptr;
-        sum += static_cast<double>(is_textured ? opacities_[material] : opacity_of(t));
-        ++count;
+/// Gives the materials of transparent triangles the opacity that these have by material and picture. Where textures are
+/// kept the alpha of a picture is blended texel by texel and no part of it.
+void MeshBuilder::give_materials_opacity() {
+    constexpr float step = 1.0F / 64.0F;    // of opacities by pictures, so that few materials are made
+    constexpr float nearly_opaque = 0.998F; // an opacity of 1 would say that nothing is blended
+    if (mesh_.materials.empty()) {
+        add_material({.name = "default"});
+        mesh_.triangle_materials.assign(mesh_.triangles.size(), 0);
     }
-    if (count == 0) { return 1.0F; }
-    const double mean = sum / static_cast<double>(count);
-    return static_cast<float>(options_.textures ? std::min(mean, nearly_opaque) : mean);
+    std::map<std::pair<std::uint32_t, float>, std::uint32_t> known;
+    for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
+        std::uint32_t& material = mesh_.triangle_materials[t];
+        const Material& own = mesh_.materials[material];
+        float opacity = std::min(own.opacity, nearly_opaque);
+        if (own.texture.picture == nullptr && opacity_of(t) < own.opacity) {
+            opacity = std::max(std::round(opacity_of(t) / step), 1.0F) * step;
+        }
+        if (opacity == own.opacity) { continue; }
+        const auto [at, is_new] = known.try_emplace({material, opacity}, invalid_index);
+        if (is_new) {
+            Material more = own;
+            more.opacity = opacity;
+            at->second = add_material(std::move(more));
+        }
+        material = at->second;
+    }
 }
 
 void MeshBuilder::take_out(const std::vector<bool>& gone) {

@@ -175,8 +175,7 @@ public:
 
     std::size_t texture_coordinates_count() const { return mesh_.texture_coordinates.size(); }
 
-    /// `opacity` is 0..1.
-    std::uint32_t add_material(Material material, float opacity = 1.0F);
+    std::uint32_t add_material(Material material);
 
     /// The material of all faces to which the file gives this colour; added when it is first used.
     std::uint32_t face_colour_material(const glm::vec3& colour);
@@ -210,7 +209,7 @@ private:
     void find_opacities();
     template <typename Kept>
     TriangleMesh part_of(const Kept& is_kept, std::vector<std::string>& notes, bool is_clear = false) const;
-    float opacity_of_transparent() const;
+    void give_materials_opacity();
     void finish_part();
     void take_out(const std::vector<bool>& gone);
     void add_triangle(const std::array<CornerIndices, 3>& corners, std::uint32_t material);
@@ -233,7 +232,6 @@ private:
     /// Materials with pictures, by the material that the file names and the picture on it.
     std::map<std::pair<std::uint32_t, PolygonPicture>, std::uint32_t> shown_materials_;
     std::vector<glm::dvec3> places_m_;         ///< corners of the polygon being added
-    std::vector<float> opacities_;             ///< one for each material
     std::vector<bool> two_sided_;              ///< one for each triangle
     std::map<std::string, int> undrawn_;       ///< pictures, by what they are for
     std::vector<std::uint32_t> groups_;        ///< one for each triangle

@@ -46,20 +46,11 @@ struct ReadOptions {
     std::vector<std::set<std::string>> groups = {};
 };
 
-/// Transparent surfaces, such as the glass of canopies.
-struct TransparentSurfaces {
-    TriangleMesh mesh;    ///< may be empty
-    float opacity = 1.0F; ///< mean of the materials, between 0 and 1
-};
-
-/// Appends transformed transparent surfaces to others; the opacity is the mean by triangles.
-void add_clear(TransparentSurfaces& to, TransparentSurfaces from, const AffineTransform& placement);
-
 /// A mesh in separate parts, any of which may be empty.
 struct MeshParts {
     TriangleMesh body;                ///< also has the notes of all parts
     std::vector<TriangleMesh> groups; ///< as ReadOptions::groups
-    TransparentSurfaces clear;
+    TriangleMesh clear;               ///< transparent surfaces, such as the glass of canopies: Material::opacity
 };
 
 /// The axis of a rotation in flight; file axes, metres.
@@ -81,7 +72,7 @@ struct RotatingPart {
 struct RotatingModel {
     TriangleMesh body; ///< never empty
     std::vector<RotatingPart> parts;
-    TransparentSurfaces clear;
+    TriangleMesh clear; ///< as MeshParts
 };
 
 /// All of a model as at rest in one mesh.

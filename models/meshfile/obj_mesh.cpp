@@ -149,9 +149,8 @@ private:
         picture_ = picture_of(*material_name_);
         const auto used = materials_.find(*material_name_);
         if (used != materials_.end()) { return material_ = used->second; }
-        const auto known = colours_.find(*material_name_);
-        Material made{.name = *material_name_};
-        if (known != colours_.end()) { made.colour = known->second; }
+        const auto known = read_materials_.find(*material_name_);
+        Material made = known == read_materials_.end() ? Material{.name = *material_name_} : known->second;
         if (picture_.picture != BakedPictures::none && made.colour == glm::vec3(0.0F)) {
             made.colour = glm::vec3(1.0F); // written by programs that mean the picture alone
         }
@@ -161,8 +160,7 @@ private:
         if (const auto named = emissive_pictures_.find(*material_name_); named != emissive_pictures_.end()) {
             made.emissive_picture = picture_file(path_, named->second);
         }
-        const auto opacity = opacities_.find(*material_name_);
-        material_ = mesh_.add_material(made, opacity == opacities_.end() ? 1.0F : opacity->second);
+        material_ = mesh_.add_material(made);
         materials_.emplace(*material_name_, material_);
         return material_;
     }
@@ -180,8 +178,7 @@ private:
         std::error_code ignored;
         if (!std::filesystem::is_regular_file(file, ignored)) { return false; }
         const polygons::MtlFile read = polygons::read_mtl(file);
-        for (const Material& material : read.materials) { colours_.insert_or_assign(material.name, material.colour); }
-        for (const auto& [material, opacity] : read.opacities) { opacities_.insert_or_assign(material, opacity); }
+        for (const Material& material : read.materials) { read_materials_.insert_or_assign(material.name, material); }
         for (const auto& [material, picture] : read.pictures) {
             pictures_.insert_or_assign(material, picture);
             if (picture.is_moved) { moved_.emplace(material, file); }
@@ -212,8 +209,7 @@ private:
     std::optional<std::string> material_name_;
     std::uint32_t material_ = invalid_index; ///< of material_name_, once a polygon has it
     std::map<std::string, std::uint32_t> materials_;
-    std::map<std::string, glm::vec3> colours_;
-    std::map<std::string, float> opacities_;               ///< of materials that are not opaque
+    std::map<std::string, Material> read_materials_;       ///< of the material files
     std::map<std::string, polygons::MtlPicture> pictures_; ///< of materials
     std::map<std::string, std::string> emissive_pictures_; ///< of materials
     std::map<std::string, std::filesystem::path> moved_;   ///< materials whose picture has such options
@@ -237,6 +233,7 @@ std::string mtl_text(const TriangleMesh& mesh, const std::vector<std::string>& n
         const glm::vec3& colour = mesh.materials[m].colour;
         text += fmt::format("newmtl {}\nKd {} {} {}\n", names[m], colour.x, colour.y, colour.z);
         const Material& material = mesh.materials[m];
+        if (material.opacity < 1.0F) { text += fmt::format("d {}\n", material.opacity); }
         const bool is_clamped =
             material.texture.wrap_u == TextureWrap::Clamp && material.texture.wrap_v == TextureWrap::Clamp;
         if (!material.picture.empty()) {

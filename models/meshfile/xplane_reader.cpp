@@ -142,7 +142,7 @@ public:
         for (Part& part : parts_) {
             if (part.mesh.is_empty()) { continue; }
             MeshParts finished = part.mesh.finish_parts();
-            add_clear(model.clear, std::move(finished.clear), {}); // such as propeller discs, which need not turn
+            join_mesh(model.clear, std::move(finished.clear), {}); // such as propeller discs, which need not turn
             if (&part == &parts_.front()) {
                 model.body = std::move(finished.body);
             } else if (!finished.body.triangles.empty()) {
@@ -611,7 +611,7 @@ private:
 
     void place(RotatingModel object, const AffineTransform& placement) {
         join_mesh(model_.body, std::move(object.body), placement);
-        add_clear(model_.clear, std::move(object.clear), placement);
+        join_mesh(model_.clear, std::move(object.clear), placement);
         for (RotatingPart& part : object.parts) {
             RotatingPart& placed = model_.parts.emplace_back();
             join_mesh(placed.mesh, std::move(part.mesh), placement);

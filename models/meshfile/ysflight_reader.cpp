@@ -244,8 +244,9 @@ private:
         const std::array<float, 4> key{polygon.colour.x, polygon.colour.y, polygon.colour.z, polygon.opacity};
         const auto [at, is_new] = materials_.try_emplace(key, invalid_index);
         if (is_new) {
-            at->second =
-                mesh_.add_material({fmt::format("colour {}", materials_.size()), polygon.colour}, polygon.opacity);
+            at->second = mesh_.add_material({.name = fmt::format("colour {}", materials_.size()),
+                .colour = polygon.colour,
+                .opacity = polygon.opacity});
         }
         return at->second;
     }

@@ -54,15 +54,9 @@ public:
             } else if ((keyword == "d" || keyword == "Tr") && text_.words().size() == 1) {
                 const auto value = text_.take_number();
                 if (!value || *value < 0.0 || *value > 1.0) { continue; }
-                if (keyword == "d") {
-                    opacities_.insert_or_assign(material_, static_cast<float>(*value));
-                } else if (*value < 1.0) {
-                    made_.opacities.insert_or_assign(material_, 1.0F - static_cast<float>(*value));
-                }
+                set_opacity(*value, keyword == "d");
             }
         }
-        for (const auto& [name, opacity] : opacities_) { made_.opacities.insert_or_assign(name, opacity); }
-        std::erase_if(made_.opacities, [](const auto& one) { return one.second >= 1.0F; });
         return std::move(made_);
     }
 
@@ -93,6 +87,7 @@ private:
         if (!names_.insert(name).second) { text_.refuse("a new material name", in_quotes(name) + " again"); }
         made_.materials.push_back({.name = name});
         material_ = name;
+        has_d_ = false;
     }
 
     void set_colour() {
@@ -106,11 +101,18 @@ private:
         if (!is_good) { text_.refuse("Kd and three numbers 0..1", in_quotes(text_.line())); }
     }
 
+    /// By `d`, which takes precedence, or by `Tr`.
+    void set_opacity(double value, bool is_d) {
+        if (made_.materials.empty() || (!is_d && (has_d_ || value == 1.0))) { return; }
+        made_.materials.back().opacity = static_cast<float>(is_d ? value : 1.0 - value);
+        has_d_ = has_d_ || is_d;
+    }
+
     TextScanner text_;
     MtlFile made_;
     std::set<std::string> names_;
-    std::string material_;                   ///< current
-    std::map<std::string, float> opacities_; ///< by `d`, which takes precedence over `Tr`
+    std::string material_; ///< current
+    bool has_d_ = false;   ///< of the current material
 };
 
 } // namespace
@@ -308,6 +310,46 @@ void triangulate_faulty_polygons(PolygonModel& model, const std::filesystem::pat
     PolygonCutting(model, path, lines).cut();
 }
 
+/// Leaves out polygons of materials that are not seen, with a note; where all are of such, their materials are opaque.
+void leave_out_unseen(PolygonModel& model, const std::filesystem::path& path) {
+    const auto is_seen = [&](const Polygon& polygon) {
+        return model.materials[polygon.material].opacity >= seen_from_opacity;
+    };
+    const auto unseen =
+        model.polygons.size() - static_cast<std::size_t>(std::ranges::count_if(model.polygons, is_seen));
+    if (unseen == 0) { return; }
+    if (unseen == model.polygons.size()) {
+        for (Material& material : model.materials) { material.opacity = 1.0F; }
+        model.notes.push_back(path.string() + ": all of it is transparent by its materials: taken for opaque");
+        return;
+    }
+    PolygonModel kept = model;
+    kept.polygons.clear();
+    kept.parents.clear();
+    kept.corner_vertices.clear();
+    kept.corner_texture_coordinates.clear();
+    kept.corner_normals.clear();
+    for (std::size_t i = 0; i < model.polygons.size(); ++i) {
+        Polygon polygon = model.polygons[i];
+        if (!is_seen(polygon)) { continue; }
+        const auto take = [&](const auto& from, auto& to) {
+            if (from.empty()) { return; }
+            const auto first = from.begin() + polygon.first_corner;
+            to.insert(to.end(), first, first + polygon.corner_count);
+        };
+        const auto first_corner = static_cast<std::uint32_t>(kept.corner_vertices.size());
+        take(model.corner_vertices, kept.corner_vertices);
+        take(model.corner_texture_coordinates, kept.corner_texture_coordinates);
+        take(model.corner_normals, kept.corner_normals);
+        polygon.first_corner = first_corner;
+        kept.polygons.push_back(polygon);
+        kept.parents.push_back(model.parent_of(i));
+    }
+    kept.notes.push_back(
+        fmt::format("{}: {} polygons are left out: their materials are transparent", path.string(), unseen));
+    model = std::move(kept);
+}
+
 constexpr std::size_t largest_file_bytes = std::size_t{256} << 20U;
 /// All other keywords of the OBJ specification: lines and points, free-form curves and surfaces, display and rendering
 /// attributes, calls.
@@ -359,6 +401,7 @@ public:
         drop_unused_places();
         finish_normals();
         triangulate_faulty_polygons(model_, path_, polygon_lines_);
+        leave_out_unseen(model_, path_);
         model_.parts = parts_.names();
         resolve_pivots();
         return std::move(model_);
@@ -566,7 +609,7 @@ private:
         }
         if (!std::filesystem::exists(file, ignored)) { return false; }
         const MtlFile read = read_mtl(file);
-        for (const Material& material : read.materials) { colours_.insert_or_assign(material.name, material.colour); }
+        for (const Material& material : read.materials) { read_materials_.insert_or_assign(material.name, material); }
         for (const auto& [material, picture] : read.pictures) { pictures_.insert_or_assign(material, picture); }
         has_material_file_ = true;
         return true;
@@ -589,9 +632,9 @@ private:
     void resolve_materials() {
         for (std::size_t i = 0; i < materials_.names().size(); ++i) {
             Material material{.name = materials_.names()[i]};
-            const auto known = colours_.find(material.name);
-            if (known != colours_.end()) {
-                material.colour = known->second;
+            const auto known = read_materials_.find(material.name);
+            if (known != read_materials_.end()) {
+                material = known->second;
             } else if (has_material_file_ && missing_files_.empty() && materials_.line_of(i) > 0) {
                 throw_error_at(path_, materials_.line_of(i),
                     fmt::format("expected a material of the material file, got {}", in_quotes(material.name)));
@@ -637,7 +680,7 @@ private:
     long smoothing_group_ = no_group;
     std::vector<long> smoothing_groups_; ///< one for each polygon
     std::vector<glm::vec3> normals_;     ///< body axes; zero: none
-    std::map<std::string, glm::vec3> colours_;
+    std::map<std::string, Material> read_materials_;
     std::map<std::string, MtlPicture> pictures_;
     bool reads_textures_ = false;
     std::vector<glm::vec2> places_; ///< texture coordinates

@@ -27,11 +27,11 @@ struct MtlPicture {
 
 /// What an MTL file says about its materials.
 struct MtlFile {
-    std::vector<Material> materials; ///< `newmtl NAME` and its `Kd R G B` as display values, in file order
+    /// `newmtl NAME`, its `Kd R G B` as display values and its opacity, `d`, else 1 - `Tr`; in file order.
+    std::vector<Material> materials;
     std::vector<std::pair<std::string, MtlPicture>> pictures;           ///< material and `map_Kd`, in file order
     std::vector<std::pair<std::string, std::string>> emissive_pictures; ///< material and the file of `map_Ke`
     std::map<std::string, int> undrawn_pictures; ///< how many, by what they are for: normals, highlights, glow
-    std::map<std::string, float> opacities;                             ///< by material, below 1: `d`, else 1 - `Tr`
 };
 
 /// Reads an MTL file. A material without Kd has the default colour. Ignores other lines, opacities outside 0..1 and a
@@ -56,6 +56,7 @@ MtlFile read_mtl(const std::filesystem::path& path);
 /// All vertices are kept in file order; parts and materials are in the order of their first polygon. Without mtllib,
 /// all materials have the default colour. If a material file is missing, unknown materials have the default colour,
 /// with a note. Polygons without an area are left out and self-intersecting polygons become triangles, with a note.
+/// Polygons of a material that is not seen (seen_from_opacity) are left out with a note, unless all are of such.
 ///
 /// Throws Error "file:line: expected ..., got ..." for anything else: other keywords, numbers that cannot be read, NaN
 /// and infinity, indices out of range, a material that no material file defines although all files exist, a

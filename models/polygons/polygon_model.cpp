@@ -10,6 +10,7 @@
 #include <cstddef>
 #include <fmt/format.h>
 #include <map>
+#include <utility>
 #include <vector>
 
 namespace octant::models::polygons {
@@ -29,17 +30,37 @@ PolygonModel polygons_from_mesh(const TriangleMesh& mesh) {
     model.name = mesh.name;
     model.vertices_m = mesh.vertices_m;
     model.parts = {"default"};
-    std::map<std::array<int, 3>, std::uint32_t> materials;
+    std::map<std::pair<std::array<int, 3>, float>, std::uint32_t> materials;
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
         const glm::vec3 colour = mean_colour(mesh, t);
+        const std::uint32_t material = mesh.materials.empty() ? invalid_index : mesh.triangle_materials[t];
+        const float opacity = material < mesh.materials.size() ? mesh.materials[material].opacity : 1.0F;
         const auto [place, is_new] =
-            materials.try_emplace(step_of(colour), static_cast<std::uint32_t>(model.materials.size()));
-        if (is_new) { model.materials.push_back({fmt::format("colour-{}", place->second + 1), colour}); }
+            materials.try_emplace({step_of(colour), opacity}, static_cast<std::uint32_t>(model.materials.size()));
+        if (is_new) {
+            model.materials.push_back(
+                {.name = fmt::format("colour-{}", place->second + 1), .colour = colour, .opacity = opacity});
+        }
         const auto first = static_cast<std::uint32_t>(model.corner_vertices.size());
         model.corner_vertices.insert(model.corner_vertices.end(), mesh.triangles[t].begin(), mesh.triangles[t].end());
         model.polygons.push_back({first, 3, place->second, 0});
     }
     return model;
+}
+
+void append_polygons(PolygonModel& to, const PolygonModel& from, std::uint32_t part) {
+    const auto first_vertex = static_cast<std::uint32_t>(to.vertices_m.size());
+    const auto first_corner = static_cast<std::uint32_t>(to.corner_vertices.size());
+    const auto first_material = static_cast<std::uint32_t>(to.materials.size());
+    to.vertices_m.insert(to.vertices_m.end(), from.vertices_m.begin(), from.vertices_m.end());
+    to.materials.insert(to.materials.end(), from.materials.begin(), from.materials.end());
+    for (const std::uint32_t vertex : from.corner_vertices) { to.corner_vertices.push_back(first_vertex + vertex); }
+    for (Polygon polygon : from.polygons) {
+        polygon.first_corner += first_corner;
+        polygon.material += first_material;
+        polygon.part = part;
+        to.polygons.push_back(polygon);
+    }
 }
 
 TriangleMesh mesh_from_polygons(const PolygonModel& polygons) {

@@ -80,8 +80,11 @@ glm::dvec3 turned(const Pivot& pivot, const glm::dvec3& point_m, double angle_ra
 double radius_m(const PolygonModel& model);
 
 /// Converts each triangle of a mesh to a polygon. The model has one part, and one material for all colours that differ
-/// by less than 1/31.
+/// by less than 1/31, for each opacity.
 PolygonModel polygons_from_mesh(const TriangleMesh& mesh);
+
+/// Appends the polygons, vertices and materials of a model without pivots to a part of another one.
+void append_polygons(PolygonModel& to, const PolygonModel& from, std::uint32_t part);
 
 /// Cuts the polygons into triangle fans without colours, for the measurement of distances.
 TriangleMesh mesh_from_polygons(const PolygonModel& polygons);

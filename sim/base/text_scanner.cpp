@@ -59,13 +59,16 @@ TextScanner::TextScanner(std::filesystem::path path, TextSource source, const Te
     text_ = rest_ = {buffer_.get(), 0};
 }
 
-TextScanner TextScanner::of_file(const std::filesystem::path& path) {
+TextScanner TextScanner::of_file(const std::filesystem::path& path, const TextRules& rules) {
     const auto in = std::make_shared<std::ifstream>(open_file(path));
-    TextScanner scanner(path, [in, path](char* to, std::size_t size) {
-        in->read(to, static_cast<std::streamsize>(size));
-        if (in->bad()) { throw_error_in(path, "cannot be read to its end"); }
-        return static_cast<std::size_t>(in->gcount());
-    });
+    TextScanner scanner(
+        path,
+        [in, path](char* to, std::size_t size) {
+            in->read(to, static_cast<std::streamsize>(size));
+            if (in->bad()) { throw_error_in(path, "cannot be read to its end"); }
+            return static_cast<std::size_t>(in->gcount());
+        },
+        rules);
     scanner.refuses_zero_bytes_ = true;
     return scanner;
 }
@@ -121,7 +124,7 @@ bool TextScanner::next_line() {
     if (rules_.joins_lines && !is_comment_line(current_line_) && continues(current_line_)) {
         joined_ = current_line_;
         bool has_more = true;
-        while (has_more && !after_lines_.empty()) {
+        while (has_more && (!after_lines_.empty() || refill(after_lines_))) {
             std::string_view part = raw_line();
             has_more = continues(part);
             joined_ += ' ';

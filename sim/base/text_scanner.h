@@ -42,7 +42,7 @@ public:
 
     /// Reads a file line by line as above and skips a UTF-8 byte order mark. Throws Error if it is no regular file that
     /// can be read; next_line() throws Error for a zero byte.
-    static TextScanner of_file(const std::filesystem::path& path);
+    static TextScanner of_file(const std::filesystem::path& path, const TextRules& rules = {});
 
     /// Advances to the next line, without its line end (LF or CRLF); false if there is none.
     bool next_line();

@@ -127,12 +127,7 @@ void check_not_overwriting(const DrawOrderOptions& options) {
 
 /// Throws Error for options that do not go together.
 void check_exclusive(const DrawOrderOptions& options) {
-    if (options.model.empty() == options.verify.empty()) {
-        throw Error(options.model.empty()
-                        ? "expected a model, got none"
-                        : "--verify: expected no model beside a certificate, which holds its own, got '" +
-                              printable(options.model) + "'");
-    }
+    if (options.model.empty() && options.verify.empty()) { throw Error("expected a model, got none"); }
     if (options.certificate.empty()) { return; }
     if (!options.check_file.empty()) {
         throw Error("--certificate: expected orders that this command finds, got those of --check '" +
@@ -147,8 +142,8 @@ void check_exclusive(const DrawOrderOptions& options) {
 void add_order_options(std::vector<Option>& table, DrawOrderOptions& options) {
     table.insert(table.end(),
         {text_option("model", "NAME|FILE",
-             fmt::format("{}, torus or an OBJ file", fmt::join(base::built_in_models, ", ")), options.model),
-            text_option("--axes", "X,Y,Z", "where x, y and z of an OBJ file point", options.axes),
+             fmt::format("{}, torus or a model in a file", fmt::join(base::built_in_models, ", ")), options.model),
+            text_option("--axes", "X,Y,Z", "where x, y and z of a file point", options.axes),
             method_option(options.method),
             hidden(value_option({"order-seconds", "SECONDS",
                                     "approximate time limit of the search; then polygons are split", 0.001, 3600},
@@ -209,6 +204,7 @@ struct CertifiedOrder {
     const models::polygons::PolygonModel& model;
     const visuals::draworder::DrawOrder& order;
     const models::polygons::FileAxes& axes;
+    const visuals::certificate::CertifiedModel& bound_to;
 };
 
 namespace proofs = visuals::verify;
@@ -216,18 +212,19 @@ namespace proofs = visuals::verify;
 std::string certificate_text(const CertifiedOrder& proved, bool quiet, base::JsonValue& results) {
     PercentProgress percents("seeking proofs", quiet);
     const auto certificate = visuals::certificate::order_certificate(
-        proved.model, proved.order, proved.axes, [&](std::size_t done, std::size_t all) {
+        proved.model, proved.order, proved.axes, proved.bound_to, [&](std::size_t done, std::size_t all) {
             percents.show(static_cast<double>(done) / static_cast<double>(all));
         });
     results["certificate_ms"] = percents.finish();
     results["certificate_unproved"] = certificate.unproved;
+    results["certificate_bytes"] = certificate.text.size();
     return certificate.text;
 }
 
 /// Checks a certificate without rounding and adds to the figures; whether it proves all.
-bool all_proofs_hold(const proofs::Certificate& certificate, PercentProgress& percents, base::JsonValue& results) {
-    const std::string file = certificate.path.string();
-    const auto verdict = proofs::verify(certificate, [&](std::size_t done, std::size_t all) {
+bool all_proofs_hold(const std::string& text, PercentProgress& percents, base::JsonValue& results) {
+    const std::string file = "certificate";
+    const auto verdict = proofs::verify({text, file}, [&](std::size_t done, std::size_t all) {
         percents.show(static_cast<double>(done) / static_cast<double>(all));
     });
     results["tolerance_sizes"] = verdict.tolerance_sizes;
@@ -239,9 +236,7 @@ bool all_proofs_hold(const proofs::Certificate& certificate, PercentProgress& pe
     results["unlisted"] = verdict.unlisted;
     results["unproved"] = verdict.unproved;
     results["every_eye"] = verdict.covers_every_eye;
-    if (certificate.first_unproved) {
-        results["first_unproved"] = fmt::format("{}:{}", file, *certificate.first_unproved);
-    }
+    if (verdict.first_unproved) { results["first_unproved"] = fmt::format("{}:{}", file, *verdict.first_unproved); }
     if (verdict.failure) {
         results["refused"] = fmt::format("{}:{}: {}", file, verdict.failure->line, verdict.failure->what);
     }
@@ -250,11 +245,16 @@ bool all_proofs_hold(const proofs::Certificate& certificate, PercentProgress& pe
     return verdict.proved();
 }
 
-/// Writes the certificate of an order, and adds to the figures what it leaves unproved.
-void write_certificate(const std::string& file, const CertifiedOrder& proved, bool quiet, base::JsonValue& results) {
-    if (proved.model.polygons.empty()) { throw Error("--certificate: expected polygons that can be seen, got none"); }
-    write_file(file, certificate_text(proved, quiet, results));
-    base::print_note(quiet, "certificate: " + file);
+/// Certificates that take more bytes for each pair of the model's polygons, of which about half overlap from some eye,
+/// are not written: the order has too many lists.
+constexpr double max_bytes_of_a_pair = 40.0;
+/// What the polygons themselves take in small models.
+constexpr double bytes_of_a_polygon = 200.0;
+
+bool is_too_long(const std::string& certificate, std::size_t polygons) {
+    const auto count = static_cast<double>(polygons);
+    return static_cast<double>(certificate.size()) >
+           bytes_of_a_polygon * count + max_bytes_of_a_pair * 0.5 * count * (count - 1.0);
 }
 
 /// Seeks the proofs of an order and checks them without rounding, without a file; adds to the
@@ -263,7 +263,7 @@ bool order_is_proved(const CertifiedOrder& proved, bool quiet, base::JsonValue& 
     if (proved.model.polygons.empty()) { return true; }
     const std::string text = certificate_text(proved, quiet, results);
     PercentProgress percents("verifying", quiet);
-    return all_proofs_hold(proofs::certificate_of(text, "certificate"), percents, results);
+    return all_proofs_hold(text, percents, results);
 }
 
 } // namespace
@@ -283,6 +283,10 @@ struct PreparedOrder {
     models::polygons::FileAxes axes;
     orderfile::CellOrders orders;
     std::optional<draworder::DrawOrder> order; ///< as it is proved; nothing for cells that were read
+    visuals::certificate::CertifiedModel bound_to;
+    std::size_t polygons_of_file = 0;
+
+    CertifiedOrder to_certify() const { return {model, *order, axes, bound_to}; }
 };
 
 std::string cell_name(const PreparedOrder& work, std::size_t cell) {
@@ -347,9 +351,12 @@ PreparedOrder prepare_order(const DrawOrderOptions& options, JsonValue& results)
     world::OrderModel input = world::load_order_model(options.model, options.axes);
     for (const std::string& note : input.model.notes) { base::print_note(options.quiet, "note: " + note); }
     results["model"] = input.model.name;
+    visuals::certificate::CertifiedModel bound_to{
+        input.model.name, visuals::certificate::model_hash(input.model, input.axes)};
+    results["model_hash"] = bound_to.hash;
     if (!options.check_file.empty()) {
         const std::size_t faces = input.model.polygons.size();
-        PreparedOrder work{std::move(input.model), input.axes, {}, {}};
+        PreparedOrder work{std::move(input.model), input.axes, {}, {}, std::move(bound_to), faces};
         work.orders = orderfile::read_order_file(options.check_file, faces, work.axes);
         if (work.orders.parts) {
             work.order = work.orders.parts;
@@ -378,7 +385,7 @@ PreparedOrder prepare_order(const DrawOrderOptions& options, JsonValue& results)
     }
     orderfile::CellOrders orders = orderfile::cell_orders(ordered);
     draworder::DrawOrder proved = order_to_prove(ordered);
-    return {std::move(ordered.model), input.axes, std::move(orders), std::move(proved)};
+    return {std::move(ordered.model), input.axes, std::move(orders), std::move(proved), std::move(bound_to), polygons};
 }
 
 void export_files(const PreparedOrder& work, const DrawOrderOptions& options) {
@@ -456,22 +463,55 @@ void print_results(const PreparedOrder& work, const DrawOrderOptions& options, b
     if (!options.table || checked) { base::print_value(results, false); }
 }
 
+/// Throws Error where a certificate is of other polygons than those of the model.
+void require_same_model(const DrawOrderOptions& options) {
+    const world::OrderModel input = world::load_order_model(options.model, options.axes);
+    const std::string hash = visuals::certificate::model_hash(input.model, input.axes);
+    const proofs::CertificateReader reader(std::filesystem::path(options.verify));
+    if (const proofs::Certificate& of = reader.certificate(); of.model_hash != hash) {
+        throw_error_in(options.verify,
+            fmt::format("expected a certificate of {}, whose polygons have the hash {}, got one of {} with {}",
+                printable(options.model), hash, printable(of.model), of.model_hash));
+    }
+}
+
+/// Writes the certificate of an order, and adds to the figures what it leaves unproved. Where it would be too long,
+/// polygons are split by planes instead, which `work` then is about.
+void write_certificate(const DrawOrderOptions& options, PreparedOrder& work, JsonValue& results) {
+    if (work.model.polygons.empty()) { throw Error("--certificate: expected polygons that can be seen, got none"); }
+    std::string text = certificate_text(work.to_certify(), options.quiet, results);
+    if (options.method == "exact" && is_too_long(text, work.polygons_of_file)) {
+        base::print_note(options.quiet, fmt::format("note: a certificate of this order would take {} bytes: polygons "
+                                                    "are split by planes instead, as with --method bsp",
+                                            text.size()));
+        DrawOrderOptions by_planes = options;
+        by_planes.method = "bsp";
+        by_planes.quiet = true;
+        work = prepare_order(by_planes, results);
+        text = certificate_text(work.to_certify(), options.quiet, results);
+    }
+    write_file(options.certificate, text);
+    base::print_note(options.quiet, "certificate: " + options.certificate);
+}
+
 void draw_order(const DrawOrderOptions& options) {
     check_draw_order_options(options);
     if (!options.verify.empty()) {
-        base::print_note(options.quiet, "note: draw-order --verify is now octant verify");
+        if (options.model.empty()) {
+            base::print_note(options.quiet, "note: draw-order --verify is now octant verify");
+        } else {
+            require_same_model(options);
+        }
         replace_by_program({"octant-verify", options.verify, options.json ? "--json" : "--quiet"});
     }
     if (options.cache) { ordercache::make_cache_folder(*options.cache); }
     JsonValue results;
-    const PreparedOrder work = prepare_order(options, results);
+    PreparedOrder work = prepare_order(options, results);
+    if (!options.certificate.empty()) { write_certificate(options, work, results); }
     export_files(work, options);
-    if (!options.certificate.empty()) {
-        write_certificate(options.certificate, {work.model, *work.order, work.axes}, options.quiet, results);
-    }
     bool good = true;
     if (options.check && work.orders.parts) {
-        good = order_is_proved({work.model, *work.order, work.axes}, options.quiet, results);
+        good = order_is_proved(work.to_certify(), options.quiet, results);
     } else if (options.check) {
         good = write_and_check_certificate(work, options, results);
     }

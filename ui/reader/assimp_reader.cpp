@@ -96,6 +96,11 @@ std::vector<MaterialSurface> surfaces_of(const aiScene& scene, const std::filesy
             };
             material.colour = glm::vec3(part(colour.r), part(colour.g), part(colour.b));
         }
+        float opacity = 1.0F; // some programs write 0 for what is opaque
+        if (from.Get(AI_MATKEY_OPACITY, opacity) == AI_SUCCESS && opacity >= models::seen_from_opacity &&
+            opacity < 1.0F) {
+            material.opacity = opacity;
+        }
         MaterialSurface surface;
         surface.picture = picture_of(scene, from, mesh);
         if (surface.picture.picture != PolygonPicture::none && material.colour == glm::vec3(0.0F)) {

@@ -6,10 +6,14 @@
 #include "visuals/verify/verify.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdio>
 #include <exception>
+#include <filesystem>
 #include <fmt/format.h>
 #include <string>
+#include <system_error>
+#include <unistd.h>
 #include <utility>
 #include <vector>
 
@@ -19,9 +23,10 @@ namespace verify = octant::visuals::verify;
 
 constexpr const char* help =
     R"(Checks a certificate of a painting order with exact arithmetic.
-Usage: octant-verify [OPTIONS] FILE
+Usage: octant-verify [OPTIONS] FILE [MODEL]
 
   FILE        certificate that octant draw-order --certificate wrote
+  MODEL       compare first that the certificate is of this model (octant draw-order MODEL --verify FILE)
   --json      print the results as JSON
   --quiet     print no progress; this program prints none
   --version   print the version
@@ -31,10 +36,12 @@ Exit code 0: every pair of polygons is proved. 1: a statement is false, missing 
 Example:
   octant draw-order f15 --certificate f15-proof.txt
   octant verify f15-proof.txt
+  octant verify f15-proof.txt f15
 )";
 
 struct Arguments {
     std::string file;
+    std::string model; ///< empty: none
     bool json = false;
     bool help = false;
     bool version = false;
@@ -53,9 +60,11 @@ Arguments arguments_from(const std::vector<std::string>& words) {
         } else if (word.starts_with('-') && word != "--quiet") {
             throw octant::Error(
                 fmt::format("expected --json, --quiet, --version or --help, got '{}'", octant::printable(word)));
-        } else if (word != "--quiet" && !std::exchange(arguments.file, word).empty()) {
-            throw octant::Error(
-                fmt::format("expected one certificate, got a second one '{}'", octant::printable(word)));
+        } else if (word != "--quiet") {
+            if (!arguments.model.empty()) {
+                throw octant::Error(fmt::format("expected one model, got a second one '{}'", octant::printable(word)));
+            }
+            (arguments.file.empty() ? arguments.file : arguments.model) = word;
         }
     }
     if (arguments.file.empty() && !arguments.help && !arguments.version) {
@@ -64,6 +73,15 @@ Arguments arguments_from(const std::vector<std::string>& words) {
     return arguments;
 }
 
+/// What a certificate is of, and how much it has.
+struct Contents {
+    std::string model;
+    std::string model_hash;
+    std::size_t polygons = 0;
+    std::size_t nodes = 0;
+    std::size_t lists = 0;
+};
+
 /// One result; `is_text` says that its value stands in quotation marks in JSON.
 struct Result {
     std::string name;
@@ -71,11 +89,12 @@ struct Result {
     bool is_text = false;
 };
 
-std::vector<Result> results_of(const verify::Certificate& certificate, const verify::VerificationResult& verification) {
-    const std::string file = certificate.path.string();
+std::vector<Result> results_of(
+    const std::string& file, const Contents& certificate, const verify::VerificationResult& verification) {
     const auto number = [](const auto& value) { return fmt::format("{}", value); };
-    std::vector<Result> results{{"certificate", file, true}, {"polygons", number(certificate.polygons.size())},
-        {"nodes", number(certificate.nodes.size())}, {"lists", number(certificate.lists.size())},
+    std::vector<Result> results{{"certificate", file, true}, {"model", certificate.model, true},
+        {"model_hash", certificate.model_hash, true}, {"polygons", number(certificate.polygons)},
+        {"nodes", number(certificate.nodes)}, {"lists", number(certificate.lists)},
         {"tolerance_sizes", number(verification.tolerance_sizes)}, {"pairs", number(verification.pairs)},
         {"pairs_by_partings", number(verification.by_node_planes)},
         {"claims_by_polygons", number(verification.statements.by_polygons)},
@@ -83,8 +102,8 @@ std::vector<Result> results_of(const verify::Certificate& certificate, const ver
         {"claims_never_seen", number(verification.statements.never_both_visible)},
         {"unlisted", number(verification.unlisted)}, {"unproved", number(verification.unproved)},
         {"every_eye", number(verification.covers_every_eye)}};
-    if (certificate.first_unproved) {
-        results.push_back({"first_unproved", fmt::format("{}:{}", file, *certificate.first_unproved), true});
+    if (verification.first_unproved) {
+        results.push_back({"first_unproved", fmt::format("{}:{}", file, *verification.first_unproved), true});
     }
     if (verification.failure) {
         results.push_back(
@@ -115,15 +134,32 @@ void print(const std::vector<Result>& results, bool json) {
     std::fputs((json ? text + "\n}\n" : text).c_str(), stdout);
 }
 
+/// Lets octant read the model, which calls this program again.
+[[noreturn]] void compare_model(const Arguments& arguments) {
+    std::error_code ignored;
+    const auto folder = std::filesystem::read_symlink("/proc/self/exe", ignored).parent_path();
+    const std::string program = (folder / "octant").string();
+    std::vector<std::string> words{
+        program, "draw-order", arguments.model, "--verify", arguments.file, arguments.json ? "--json" : "--quiet"};
+    std::vector<char*> pointers;
+    for (std::string& word : words) { pointers.push_back(word.data()); }
+    pointers.push_back(nullptr);
+    execv(program.c_str(), pointers.data());
+    throw octant::Error(fmt::format("{}: expected the program that reads models, got none", program));
+}
+
 int run(const std::vector<std::string>& words) {
     const Arguments arguments = arguments_from(words);
     if (arguments.help || arguments.version) {
         std::fputs(arguments.help ? help : "octant-verify " OCTANT_VERSION "\n", stdout);
         return 0;
     }
-    const verify::Certificate certificate = verify::read_certificate(arguments.file);
-    const verify::VerificationResult verification = verify::verify(certificate);
-    print(results_of(certificate, verification), arguments.json);
+    if (!arguments.model.empty()) { compare_model(arguments); }
+    verify::CertificateReader reader(arguments.file);
+    const verify::Certificate& read = reader.certificate();
+    const Contents contents{read.model, read.model_hash, read.polygons.size(), read.nodes.size(), read.lists.size()};
+    const verify::VerificationResult verification = verify::verify(std::move(reader));
+    print(results_of(arguments.file, contents, verification), arguments.json);
     return verification.proved() ? 0 : 1;
 }
 

@@ -16,6 +16,7 @@
 #include "ui/settings/settings.h"
 #include "ui/world/input_files.h"
 #include "ui/world/mesh_aircraft.h"
+#include "visuals/draworder/opaque_first.h"
 #include "visuals/draworder/ordered_model.h"
 #include "visuals/ordercache/order_cache.h"
 #include "visuals/planning/aircraft_model.h"
@@ -137,8 +138,10 @@ constexpr std::size_t max_polygons_of_a_model = 50'000;
 constexpr std::size_t max_triangles_of_a_model = 2'000;
 /// Larger sets of polygons that replace a mesh far away get no painting order.
 constexpr std::size_t max_polygons_of_a_mesh = 2'000;
-/// Limit for the search of their order, which decides few pixels.
+/// Limit for the search of their order, which decides few pixels, and of that of glass.
 constexpr double max_seconds_of_a_mesh = 0.3;
+/// More transparent polygons than these are not sorted.
+constexpr std::size_t max_polygons_of_glass = 20'000;
 
 /// What painting orders are looked for.
 struct OrderLimits {
@@ -146,15 +149,12 @@ struct OrderLimits {
     double seconds = 0.0;
 };
 
-draworder::OrderedModel with_order(
-    PolygonModel model, const AircraftSources& inputs, const OrderLimits& most, LoadContext& context) {
-    if (inputs.hidden_surface != scene::HiddenSurface::Octant || model.polygons.size() > most.polygons) {
-        draworder::DrawOrder order = draworder::file_order(model);
-        return {.model = std::move(model), .order = std::move(order), .cells = {}, .notes = {}};
-    }
+/// A model with a painting order for every eye, or as printed.
+draworder::OrderedModel sorted(
+    PolygonModel model, const AircraftSources& inputs, double max_seconds, LoadContext& context) {
     draworder::OrderOptions options;
     options.method = inputs.order_method;
-    options.seconds = std::min(inputs.order_seconds, most.seconds);
+    options.seconds = std::min(inputs.order_seconds, max_seconds);
     if (!context.order_cache_folder) { return draworder::ordered(std::move(model), options); }
     ordercache::CachedOrder cached = ordercache::cached_order(*context.order_cache_folder, std::move(model), options);
     context.note(cached.notes);
@@ -162,14 +162,41 @@ draworder::OrderedModel with_order(
     return std::move(cached.ordered);
 }
 
-/// Whether a material file has glass, or pictures that are not drawn as textures: both are shown on meshes.
-bool needs_mesh(const fs::path& materials, bool textures) {
+/// In file order; transparent polygons come after all others, sorted for every eye where they are not too many.
+draworder::OrderedModel drawn_by_depth(PolygonModel model, const AircraftSources& inputs, LoadContext& context) {
+    const auto sort = [&](PolygonModel glass) -> draworder::OrderedModel {
+        if (glass.polygons.size() <= max_polygons_of_glass) {
+            AircraftSources exactly = inputs;
+            exactly.order_method = draworder::OrderMethod::Exact;
+            return sorted(std::move(glass), exactly, max_seconds_of_a_mesh, context);
+        }
+        context.notes.push_back(fmt::format("{}: {} transparent polygons are too many to be sorted (at most {}): "
+                                            "blended as the file has them",
+            glass.name, glass.polygons.size(), max_polygons_of_glass));
+        draworder::DrawOrder order = draworder::file_order(glass);
+        return {.model = std::move(glass), .order = std::move(order)};
+    };
+    if (draworder::has_transparent_polygons(model)) { return draworder::opaque_first(model, sort); }
+    draworder::DrawOrder order = draworder::file_order(model);
+    return {.model = std::move(model), .order = std::move(order)};
+}
+
+draworder::OrderedModel with_order(
+    PolygonModel model, const AircraftSources& inputs, const OrderLimits& most, LoadContext& context) {
+    if (inputs.hidden_surface != scene::HiddenSurface::Octant || model.polygons.size() > most.polygons) {
+        return drawn_by_depth(std::move(model), inputs, context);
+    }
+    return sorted(std::move(model), inputs, most.seconds, context);
+}
+
+/// Whether a material file has pictures, which are shown on meshes where they are not drawn as textures.
+bool has_pictures(const fs::path& materials) {
     std::error_code ignored;
     if (!fs::is_regular_file(materials, ignored)) { return false; }
     const models::polygons::MtlFile read = models::polygons::read_mtl(materials);
-    return !read.opacities.empty() || (!textures && std::ranges::any_of(read.pictures, [&](const auto& of_material) {
+    return std::ranges::any_of(read.pictures, [&](const auto& of_material) {
         return fs::is_regular_file(materials.parent_path() / of_material.second.file, ignored);
-    }));
+    });
 }
 
 /// Whether an OBJ file is a polygon model, to be painted in order. Many faces that are nearly all triangles are the
@@ -185,7 +212,7 @@ bool is_polygon_model(const fs::path& file, bool textures) {
         if (lines.skip("f")) {
             ++(lines.words().size() == 3 ? triangles : others);
         } else if (lines.skip("mtllib")) {
-            is_plain = is_plain && !needs_mesh(file.parent_path() / lines.rest_of_line(), textures);
+            is_plain = is_plain && (textures || !has_pictures(file.parent_path() / lines.rest_of_line()));
         }
     }
     const std::size_t faces = triangles + others;
@@ -193,23 +220,43 @@ bool is_polygon_model(const fs::path& file, bool textures) {
     return is_plain && faces <= max_polygons_of_a_model && !is_mesh;
 }
 
+/// A model with its order, and what belongs to the corners of the polygons that were cut for it.
+struct FinishedOrder {
+    draworder::OrderedModel ordered;
+    std::vector<glm::vec3> normals;
+};
+
+FinishedOrder finished_order(
+    const PolygonModel& whole, const AircraftSources& inputs, const OrderLimits& most, LoadContext& context) {
+    PolygonModel model = whole;
+    model.corner_texture_coordinates.clear(); // orders need none and cut polygons
+    FinishedOrder made{with_order(std::move(model), inputs, most, context), {}};
+    context.note(made.ordered.notes);
+    made.normals = shading::piece_normals(whole, shading::corner_normals(whole), made.ordered.model);
+    if (!whole.corner_texture_coordinates.empty()) {
+        made.ordered.model.corner_texture_coordinates = shading::piece_texture_coordinates(whole, made.ordered.model);
+    }
+    return made;
+}
+
 /// `kind`: the row of the aircraft; null for one of which only the shape is known.
 planning::AircraftModel finished_model(PolygonModel model, const sim::AircraftKind* kind, const AircraftSources& inputs,
     const OrderLimits& most, LoadContext& context) {
     const glm::dvec3 eye_m = kind != nullptr ? kind->pilot_eye_m : planning::pilot_eye_m(model);
-    const PolygonModel whole = model;
-    model.corner_texture_coordinates.clear(); // orders need none and cut polygons
-    draworder::OrderedModel ordered = with_order(std::move(model), inputs, most, context);
-    context.note(ordered.notes);
-    std::vector<glm::vec3> normals = shading::piece_normals(whole, shading::corner_normals(whole), ordered.model);
-    if (!whole.corner_texture_coordinates.empty()) {
-        ordered.model.corner_texture_coordinates = shading::piece_texture_coordinates(whole, ordered.model);
-    }
-    planning::AircraftModel made =
-        planning::aircraft_model(std::move(ordered.model), std::move(ordered.order), eye_m, std::move(normals));
+    FinishedOrder made = finished_order(model, inputs, most, context);
+    planning::AircraftModel finished = planning::aircraft_model(
+        std::move(made.ordered.model), std::move(made.ordered.order), eye_m, std::move(made.normals));
     // Orders move points by a hair: the camera keeps its place however hidden surfaces are removed.
-    made.subject.radius_m = models::polygons::radius_m(whole);
-    return made;
+    finished.subject.radius_m = models::polygons::radius_m(model);
+    return finished;
+}
+
+/// Adds the transparent surfaces of a mesh, sorted for every eye, to its model.
+void add_glass(
+    const PolygonModel& glass, const AircraftSources& inputs, LoadContext& context, planning::AircraftModel& model) {
+    if (glass.polygons.empty()) { return; }
+    FinishedOrder made = finished_order(glass, inputs, {}, context);
+    planning::add_glass(model, made.ordered.model, std::move(made.ordered.order), std::move(made.normals));
 }
 
 /// Decodes the pictures that the materials name. Those that cannot be read are noted.
@@ -221,7 +268,9 @@ void take_pictures(PolygonModel& model, const fs::path& file, LoadContext& conte
             material.texture.picture = context.textures->picture_in(picture);
             material.picture = picture.string();
             const bool is_opaque = material.texture.picture->is_opaque;
-            material.texture.alpha = is_opaque ? models::TextureAlpha::Opaque : models::TextureAlpha::Mask;
+            material.texture.alpha = is_opaque                          ? models::TextureAlpha::Opaque
+                                     : models::is_transparent(material) ? models::TextureAlpha::Blend
+                                                                        : models::TextureAlpha::Mask;
             if (material.colour == glm::vec3(0.0F)) { material.colour = glm::vec3(1.0F); } // as meshes
         } catch (const Error& fault) {
             context.notes.push_back(fmt::format("{}; its surfaces have their material's colour", fault.what()));
@@ -284,6 +333,7 @@ planning::AircraftModel load_model(const std::string& name, const AircraftSource
     context.note(mesh.notes);
     planning::AircraftModel model = far_model(mesh, inputs, context);
     add_meshes(model, mesh);
+    add_glass(mesh.glass, inputs, context, model);
     return model;
 }
 

@@ -10,16 +10,18 @@
 #include "sim/base/stopwatch.h"
 #include "ui/world/aircraft_frame.h"
 #include "ui/world/mesh_loader.h"
-#include "ui/world/unpacked_file.h"
 #include "visuals/refine/active_mesh.h"
 #include "visuals/refine/progressive_file.h"
 #include "visuals/refine/selective_refiner.h"
 #include "visuals/shading/vertex_normals.h"
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <fmt/format.h>
+#include <limits>
+#include <map>
 #include <span>
 #include <string_view>
 #include <utility>
@@ -32,7 +34,6 @@ namespace meshfile = models::meshfile;
 namespace planning = visuals::planning;
 namespace refine = visuals::refine;
 using models::meshfile::RotatingPart;
-using models::polygons::Polygon;
 using models::polygons::PolygonModel;
 
 namespace {
@@ -41,21 +42,6 @@ namespace {
 constexpr std::size_t far_faces_of_parts = 120;
 constexpr std::size_t min_far_faces = 12;
 constexpr std::size_t far_faces_of_transparent = 60;
-
-void append(PolygonModel& to, const PolygonModel& from, std::uint32_t part) {
-    const auto first_vertex = static_cast<std::uint32_t>(to.vertices_m.size());
-    const auto first_corner = static_cast<std::uint32_t>(to.corner_vertices.size());
-    const auto first_material = static_cast<std::uint32_t>(to.materials.size());
-    to.vertices_m.insert(to.vertices_m.end(), from.vertices_m.begin(), from.vertices_m.end());
-    to.materials.insert(to.materials.end(), from.materials.begin(), from.materials.end());
-    for (const std::uint32_t vertex : from.corner_vertices) { to.corner_vertices.push_back(first_vertex + vertex); }
-    for (Polygon polygon : from.polygons) {
-        polygon.first_corner += first_corner;
-        polygon.material += first_material;
-        polygon.part = part;
-        to.polygons.push_back(polygon);
-    }
-}
 
 /// The certified distance of two meshes, found quickly.
 double max_distance_m(const models::TriangleMesh& a, const models::TriangleMesh& b) {
@@ -72,7 +58,7 @@ double append_far(const models::TriangleMesh& mesh, std::size_t faces, std::uint
     models::simplify::SimplifyOptions options;
     options.goal.faces = faces;
     const models::TriangleMesh far = models::simplify::simplified(whole, options).mesh;
-    append(to, models::polygons::polygons_from_mesh(far), part);
+    models::polygons::append_polygons(to, models::polygons::polygons_from_mesh(far), part);
     return max_distance_m(whole, far);
 }
 
@@ -179,20 +165,62 @@ models::TriangleMesh whole_of(const meshfile::RotatingModel& model) {
     for (const RotatingPart& part : model.parts) {
         if (models::is_shown_at_rest(part.moves)) { meshfile::join_mesh(whole, part.mesh, {}); }
     }
-    meshfile::join_mesh(whole, model.clear.mesh, {});
+    meshfile::join_mesh(whole, model.clear, {});
     return whole;
+}
+
+/// The triangles of a mesh as polygons, with their materials, normals and texture coordinates. Colours of vertices
+/// become one of each triangle.
+PolygonModel glass_of(const models::TriangleMesh& mesh) {
+    if (mesh.triangles.empty()) { return {}; }
+    models::TriangleMesh plain = mesh;
+    if (plain.materials.empty()) {
+        plain.materials.push_back({.name = "glass"});
+        plain.triangle_materials.assign(plain.triangles.size(), 0);
+    }
+    PolygonModel glass;
+    glass.vertices_m = plain.vertices_m;
+    glass.materials = plain.materials;
+    glass.parts = {"glass"};
+    std::map<std::array<int, 4>, std::uint32_t> coloured; // by material and colour in steps
+    for (std::size_t t = 0; t < plain.triangles.size(); ++t) {
+        std::uint32_t material = plain.triangle_materials[t];
+        if (!plain.colours.empty() && plain.materials[material].texture.picture == nullptr) {
+            const glm::vec3 colour = models::mean_colour(plain, t);
+            const glm::ivec3 step(colour * 31.0F + 0.5F);
+            const auto [at, is_new] = coloured.try_emplace({static_cast<int>(material), step.x, step.y, step.z},
+                static_cast<std::uint32_t>(glass.materials.size()));
+            if (is_new) {
+                glass.materials.push_back(plain.materials[material]);
+                glass.materials.back().colour = colour;
+            }
+            material = at->second;
+        }
+        glass.polygons.push_back({static_cast<std::uint32_t>(glass.corner_vertices.size()), 3, material, 0});
+        for (std::size_t k = 0; k < 3; ++k) {
+            glass.corner_vertices.push_back(plain.triangles[t][k]);
+            if (!plain.normals.empty()) { glass.corner_normals.push_back(plain.normals[plain.corner_normals[t][k]]); }
+            if (plain.texture_coordinates.empty()) { continue; }
+            const std::uint32_t place = plain.corner_texture_coordinates[t][k];
+            constexpr float none = std::numeric_limits<float>::quiet_NaN();
+            glass.corner_texture_coordinates.push_back(
+                place == models::invalid_index ? glm::vec2(none) : plain.texture_coordinates[place]);
+        }
+    }
+    return glass;
 }
 
 /// What is flown of a mesh's file, in axes and unit of the file.
 struct FileHierarchy {
     RefineMesh mesh;
+    models::TriangleMesh clear; ///< transparent surfaces
     AircraftAxes axes;
     models::BoundingBox bounds;
 };
 
-/// A hierarchy from its file, or made of a mesh. Turning parts and transparent surfaces go to `aircraft`.
+/// A hierarchy from its file, or made of a mesh. Turning parts go to `turning`.
 FileHierarchy hierarchy_in(const fs::path& file, const AircraftFrameSettings& frame, const fs::path& cache,
-    std::shared_ptr<meshfile::TextureStore> textures, MeshAircraft& aircraft) {
+    std::shared_ptr<meshfile::TextureStore> textures, std::vector<RotatingPart>& turning) {
     const RefineMeshOptions input{.file = file.string(), .base = 0, .quiet = true};
     FileHierarchy result;
     if (refine::is_progressive_file(file)) {
@@ -203,17 +231,12 @@ FileHierarchy hierarchy_in(const fs::path& file, const AircraftFrameSettings& fr
         return result;
     }
     const meshfile::ReadOptions options{.pictures = true, .textures = std::move(textures), .backs = true};
-    meshfile::RotatingModel model;
-    if (path_exists(file) && !is_library_file(file) && meshfile::is_mesh_file(file)) {
-        model = read_packed_model(file, options);
-    } else {
-        model.body = load_mesh(input.file, options);
-    }
+    meshfile::RotatingModel model = load_rotating_model(input.file, options);
     const models::TriangleMesh whole = whole_of(model);
     result.axes = aircraft_axes(frame.axes, file, whole);
     result.bounds = models::bounds_of(whole);
-    aircraft.turning = std::move(model.parts);
-    aircraft.clear = std::move(model.clear);
+    turning = std::move(model.parts);
+    result.clear = std::move(model.clear);
     add_missing_normals(model.body);
     result.mesh = cache.empty() ? make_refine_mesh(input, std::move(model.body))
                                 : cached_refine_mesh(cache, input, std::move(model.body));
@@ -242,7 +265,7 @@ MeshAircraft from_hierarchy(const fs::path& file, const AircraftFrameSettings& f
     std::shared_ptr<meshfile::TextureStore> textures) {
     const Stopwatch watch;
     MeshAircraft aircraft;
-    FileHierarchy input = hierarchy_in(file, frame, cache, std::move(textures), aircraft);
+    FileHierarchy input = hierarchy_in(file, frame, cache, std::move(textures), aircraft.turning);
     const models::polygons::FileAxes& axes = input.axes.axes;
     aircraft.notes = std::move(input.mesh.notes);
     note_frame(input.axes, input.bounds, frame.scale, file, aircraft.notes);
@@ -251,7 +274,8 @@ MeshAircraft from_hierarchy(const fs::path& file, const AircraftFrameSettings& f
     aircraft.hierarchy = turned(*input.mesh.mesh, axes, origin, frame.scale); // its nodes keep their numbers
     aircraft.creases = turned(input.mesh.creases, axes);
     aircraft.textures = std::move(input.mesh.textures);
-    const models::TriangleMesh far = far_mesh(aircraft.hierarchy);
+    models::TriangleMesh far = far_mesh(aircraft.hierarchy);
+    for (models::Material& material : far.materials) { material.opacity = 1.0F; } // glass is apart
     aircraft.polygons_error_m = max_distance_m(finest_mesh(*aircraft.hierarchy), far);
     aircraft.polygons = models::polygons::polygons_from_mesh(far);
     for (RotatingPart& part : aircraft.turning) {
@@ -267,11 +291,11 @@ MeshAircraft from_hierarchy(const fs::path& file, const AircraftFrameSettings& f
             }
         }
     }
-    move_mesh(aircraft.clear.mesh, origin, frame.scale);
-    rotate_mesh_to_body(aircraft.clear.mesh, axes);
-    // Transparent surfaces are opaque there: far away nothing is seen through them.
+    move_mesh(input.clear, origin, frame.scale);
+    rotate_mesh_to_body(input.clear, axes);
     aircraft.polygons_error_m = std::max({aircraft.polygons_error_m, add_far_parts(aircraft.turning, aircraft.polygons),
-        append_far(aircraft.clear.mesh, far_faces_of_transparent, 0, aircraft.polygons)});
+        append_far(input.clear, far_faces_of_transparent, 0, aircraft.polygons)});
+    aircraft.glass = glass_of(input.clear);
     note_moving_parts(aircraft, file);
     aircraft.notes.push_back(fmt::format("{}: {} triangles made ready to be refined in {:.1f} s", file.string(),
         aircraft.hierarchy->face_count(), watch.s()));
@@ -343,9 +367,6 @@ void add_meshes(planning::AircraftModel& model, const MeshAircraft& aircraft) {
             parts.push_back({&part.mesh, turns_by_time(part) ? std::optional(pivots++) : std::nullopt, part.moves});
         }
         planning::add_moving_parts(model, parts);
-        if (!aircraft.clear.mesh.triangles.empty()) {
-            planning::add_transparent(model, aircraft.clear.mesh, aircraft.clear.opacity);
-        }
         return;
     }
     std::vector<planning::MeshSource> sources;

@@ -32,7 +32,7 @@ struct MeshAircraft {
     /// polygons.
     std::vector<models::meshfile::RotatingPart> turning;
     /// Transparent surfaces, which the hierarchy leaves out; often none.
-    models::meshfile::TransparentSurfaces clear;
+    models::polygons::PolygonModel glass;
     /// Drawn in place of the mesh far away.
     models::polygons::PolygonModel polygons;
     /// No point of the polygons is farther than this from the mesh, nor of the mesh from them.
@@ -46,8 +46,7 @@ struct MeshAircraft {
 MeshAircraft read_mesh_aircraft(const std::filesystem::path& file, const AircraftFrameSettings& frame,
     const std::filesystem::path& cache, std::shared_ptr<models::meshfile::TextureStore> textures = {});
 
-/// Adds levels or hierarchy, turning parts and transparent surfaces to the model that was made of the aircraft's
-/// polygons.
+/// Adds levels or hierarchy and turning parts to the model that was made of the aircraft's polygons.
 void add_meshes(visuals::planning::AircraftModel& model, const MeshAircraft& aircraft);
 
 } // namespace octant::ui::world

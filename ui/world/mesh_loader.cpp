@@ -79,7 +79,10 @@ const Library* library_of(const fs::path& file) {
 
 bool is_library_file(const fs::path& file) { return library_of(file) != nullptr; }
 
-models::TriangleMesh read_library_mesh(const fs::path& file, const models::meshfile::ReadOptions& options) {
+namespace {
+
+/// Reads a model by a library in a process of its own; as read_library_mesh(), with transparent surfaces apart.
+models::meshfile::RotatingModel read_library_model(const fs::path& file, const models::meshfile::ReadOptions& options) {
     const Library& library = *library_of(file);
     std::error_code ignored;
     if (!fs::is_regular_file(file, ignored)) { throw_error_in(file, "expected a file that can be read, got none"); }
@@ -102,16 +105,27 @@ models::TriangleMesh read_library_mesh(const fs::path& file, const models::meshf
     const report::ProgramResult ending = child->finish();
     if (!ending.succeeded) { refuse(file, library, ending.last_error_line); }
     // The colours of pictures came with the vertices; what keeps the pictures themselves has to read them.
-    models::TriangleMesh mesh =
-        models::meshfile::read_mesh(out, {.pictures = options.textures != nullptr, .textures = options.textures});
-    mesh.name = file.stem().string();
-    for (models::Material& material : mesh.materials) {
-        if (fs::path(material.picture).parent_path() == folder.path()) { // one that was inside the file
-            material.picture_bytes = std::make_shared<const std::string>(read_file(material.picture, largest_bytes));
-            material.picture = fs::path(material.picture).filename().string();
+    models::meshfile::RotatingModel model = models::meshfile::read_rotating_model(
+        out, {.pictures = options.textures != nullptr, .textures = options.textures});
+    model.body.name = file.stem().string();
+    for (models::TriangleMesh* mesh : {&model.body, &model.clear}) {
+        for (models::Material& material : mesh->materials) {
+            if (fs::path(material.picture).parent_path() == folder.path()) { // one that was inside the file
+                material.picture_bytes =
+                    std::make_shared<const std::string>(read_file(material.picture, largest_bytes));
+                material.picture = fs::path(material.picture).filename().string();
+            }
         }
     }
-    return mesh;
+    return model;
+}
+
+} // namespace
+
+models::TriangleMesh read_library_mesh(const fs::path& file, const models::meshfile::ReadOptions& options) {
+    models::meshfile::RotatingModel model = read_library_model(file, options);
+    models::meshfile::join_mesh(model.body, std::move(model.clear), {});
+    return std::move(model.body);
 }
 
 std::string library_formats() {
@@ -138,6 +152,15 @@ models::TriangleMesh load_mesh(const std::string& name_or_file, const models::me
     }
     return is_library_file(name_or_file) ? read_library_mesh(name_or_file, options)
                                          : read_packed_mesh(name_or_file, options);
+}
+
+models::meshfile::RotatingModel load_rotating_model(
+    const std::string& name_or_file, const models::meshfile::ReadOptions& options) {
+    if (path_exists(name_or_file)) {
+        if (is_library_file(name_or_file)) { return read_library_model(name_or_file, options); }
+        if (models::meshfile::is_mesh_file(name_or_file)) { return read_packed_model(name_or_file, options); }
+    }
+    return {load_mesh(name_or_file, options), {}, {}};
 }
 
 namespace {

@@ -23,6 +23,10 @@ std::string built_in_mesh_names();
 /// A triangle mesh by one of these names or from a file, not repaired. Throws Error.
 models::TriangleMesh load_mesh(const std::string& name_or_file, const models::meshfile::ReadOptions& options = {});
 
+/// The same with turning parts and transparent surfaces apart, where the file's reader tells them. Throws Error.
+models::meshfile::RotatingModel load_rotating_model(
+    const std::string& name_or_file, const models::meshfile::ReadOptions& options = {});
+
 /// Whether a file's ending is one that a library's reader takes: Assimp's or OpenSceneGraph's.
 bool is_library_file(const std::filesystem::path& file);
 

@@ -1,10 +1,16 @@
 #include "ui/world/order_model.h"
 
+#include "models/meshfile/level_chain.h"
+#include "models/meshfile/mesh_file.h"
+#include "models/part_motion.h"
 #include "models/polygons/obj_reader.h"
+#include "models/polygons/polygon_model.h"
 #include "models/procedural/procedural_models.h"
 #include "sim/base/error.h"
 #include "sim/base/random_generator.h"
+#include "sim/base/text_file.h"
 #include "ui/base/data_files.h"
+#include "ui/world/mesh_loader.h"
 
 #include <glm/geometric.hpp>
 
@@ -15,16 +21,18 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace octant::ui::world {
 
 namespace draworder = visuals::draworder;
 namespace orderfile = visuals::orderfile;
+using models::polygons::PolygonModel;
 
 namespace {
 
-constexpr std::size_t max_polygons = 50'000;
+constexpr std::size_t max_polygons = 100'000;
 constexpr double nearest_radii = 0.05;
 constexpr double farthest_radii = 20.0;
 constexpr int rays_per_eye = 20;
@@ -35,6 +43,64 @@ bool is_file_name(const std::string& name) {
            std::filesystem::is_regular_file(name, ignored);
 }
 
+/// Without triangles that have no area, which no order needs; they are noted.
+PolygonModel leave_out_slivers(PolygonModel model, const std::string& file) {
+    const std::size_t before = model.polygons.size();
+    std::erase_if(model.polygons, [&](const models::polygons::Polygon& polygon) {
+        const auto corner = [&](std::uint32_t k) {
+            return model.vertices_m[model.corner_vertices[polygon.first_corner + k]];
+        };
+        const std::array<glm::dvec3, 3> corners_m{corner(0), corner(1), corner(2)};
+        return models::polygons::is_line(corners_m);
+    });
+    if (const std::size_t gone = before - model.polygons.size(); gone > 0) {
+        model.notes.push_back(fmt::format("{}: {} triangles without area are left out", file, gone));
+    }
+    if (model.polygons.empty()) { throw_error_in(file, "expected triangles with an area, got none"); }
+    return model;
+}
+
+/// The polygons of a chain of levels, or its coarsest level.
+PolygonModel polygons_of_chain(const std::string& file, const models::polygons::FileAxes& axes) {
+    models::meshfile::LevelChain chain = models::meshfile::read_chain(file);
+    PolygonModel model =
+        chain.polygons ? std::move(*chain.polygons) : models::polygons::polygons_from_mesh(chain.levels.back().mesh);
+    for (glm::dvec3& vertex_m : model.vertices_m) { vertex_m = axes.body_from_file(vertex_m); }
+    for (models::polygons::Pivot& pivot : model.pivots) {
+        pivot.point_m = axes.body_from_file(pivot.point_m);
+        pivot.axis = axes.body_from_file(pivot.axis);
+    }
+    return model;
+}
+
+/// The triangles of a mesh file as polygons, at rest: its body, then its glass, then each part that moves.
+PolygonModel polygons_of_mesh_file(const std::string& file, const models::polygons::FileAxes& axes) {
+    if (models::meshfile::is_chain_file(file)) { return polygons_of_chain(file, axes); }
+    const models::meshfile::RotatingModel read = load_rotating_model(file, {.backs = true});
+    PolygonModel model;
+    model.name = std::filesystem::path(file).stem().string();
+    model.notes = read.body.notes;
+    const auto add = [&](const models::TriangleMesh& mesh, const std::string& part) {
+        if (mesh.triangles.empty()) { return; }
+        models::polygons::append_polygons(
+            model, models::polygons::polygons_from_mesh(mesh), static_cast<std::uint32_t>(model.parts.size()));
+        model.parts.push_back(part);
+    };
+    add(read.body, "body");
+    add(read.clear, "glass");
+    for (const models::meshfile::RotatingPart& part : read.parts) {
+        if (part.mesh.triangles.empty() || !models::is_shown_at_rest(part.moves)) { continue; }
+        const auto number = static_cast<std::uint32_t>(model.parts.size());
+        const bool turns = part.about.turns_per_s != 0.0;
+        add(part.mesh, fmt::format("{}-{}", turns ? "turning" : "moving", number));
+        if (!turns) { continue; }
+        model.pivots.push_back({number, axes.body_from_file(part.about.point_m),
+            axes.body_from_file(part.about.direction), part.about.turns_per_s});
+    }
+    for (glm::dvec3& vertex_m : model.vertices_m) { vertex_m = axes.body_from_file(vertex_m); }
+    return leave_out_slivers(std::move(model), file);
+}
+
 OrderModel read(const std::string& name, const std::string& axes) {
     const auto file_axes = models::polygons::FileAxes::from_text(axes);
     if (std::ranges::find(base::built_in_models, name) != base::built_in_models.end()) {
@@ -42,10 +108,11 @@ OrderModel read(const std::string& name, const std::string& axes) {
     }
     if (name == "torus") { return {models::procedural::torus(), {}}; }
     if (!is_file_name(name)) {
-        throw Error(fmt::format("model: expected {}, torus or an OBJ file, got '{}'",
-            fmt::join(base::built_in_models, ", "), printable(name)));
+        throw Error(fmt::format(
+            "model: expected {}, torus or a file, got '{}'", fmt::join(base::built_in_models, ", "), printable(name)));
     }
-    return {models::polygons::read_obj(name, file_axes), file_axes};
+    const bool is_obj = extension_of(name) == ".obj" && !models::meshfile::is_xplane_object(name);
+    return {is_obj ? models::polygons::read_obj(name, file_axes) : polygons_of_mesh_file(name, file_axes), file_axes};
 }
 
 /// The most planes that any eye is tried against.

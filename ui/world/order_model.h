@@ -16,8 +16,9 @@ struct OrderModel {
     models::polygons::FileAxes axes;
 };
 
-/// A built-in model (base::built_in_models, torus) in the usual axes, or an OBJ file in `axes`. Throws Error, also for
-/// more polygons than orders can be found for in reasonable time.
+/// A built-in model (base::built_in_models, torus) in the usual axes, or a file in `axes`: polygons of an OBJ file, the
+/// triangles of any other mesh file, with parts that turn and glass where they are told. Throws Error, also for more
+/// polygons than orders can be found for in reasonable time.
 OrderModel load_order_model(const std::string& name_or_file, const std::string& axes);
 
 /// How many planes an eye is tried against.

@@ -217,6 +217,15 @@ private:
     std::vector<std::uint64_t> swept_; ///< A bit a piece: by something that turns.
 };
 
+/// Whether a plane cuts a piece that turns, of all pieces: samples may have left it out.
+bool cuts_turning(const PolygonPieces& pieces, std::span<const std::uint32_t> items, const Plane& plane) {
+    return std::ranges::any_of(items, [&](std::uint32_t item) {
+        if (!pieces[item].pivot) { return false; }
+        const PlaneSideFlags sides_reached = pieces.sides_reached(item, plane);
+        return sides_reached.before && sides_reached.behind;
+    });
+}
+
 /// The best plane of a piece.
 Costed best_own(const PolygonPieces& pieces, std::span<const std::uint32_t> items) {
     const Sample sample(pieces, items);
@@ -226,7 +235,7 @@ Costed best_own(const PolygonPieces& pieces, std::span<const std::uint32_t> item
         const auto& plane = pieces[items[i * items.size() / tried]].plane;
         if (!plane) { continue; }
         const double cost = cost_of(sample.split_counts(*plane, best.cost));
-        if (cost < best.cost) { best = {*plane, cost}; }
+        if (cost < best.cost && !cuts_turning(pieces, items, *plane)) { best = {*plane, cost}; }
     }
     return best;
 }
@@ -303,7 +312,7 @@ std::optional<Plane> splitting_plane(const PolygonPieces& pieces, std::span<cons
     Costed best = best_own(pieces, items);
     for (int axis = 0; axis < 3; ++axis) {
         const Costed across = best_across(pieces, items, axis);
-        if (across.cost < best.cost) { best = across; }
+        if (across.cost < best.cost && !cuts_turning(pieces, items, across.plane)) { best = across; }
     }
     return std::isfinite(best.cost) ? std::optional(best.plane) : std::nullopt;
 }

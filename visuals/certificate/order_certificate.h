@@ -11,20 +11,31 @@
 
 namespace octant::visuals::certificate {
 
+/// What a certificate is bound to: the polygons of a model's file.
+struct CertifiedModel {
+    std::string name;
+    std::string hash; ///< model_hash() of the polygons as they were read
+};
+
+/// A hash of the polygons of a model as read from its file, in the axes of the file: of the places of their corners and
+/// of their turning axes, not of names and colours. 16 hexadecimal digits.
+std::string model_hash(const models::polygons::PolygonModel& model, const models::polygons::FileAxes& axes);
+
 struct OrderCertificate {
     std::string text;           ///< visuals/verify/certificate-format.md describes it.
     std::uint64_t unproved = 0; ///< Pairs and polygons for which no proof was found.
 };
+
+/// Counts nodes and lists that are done, of all.
+using CertificateProgress = std::function<void(std::size_t done, std::size_t all)>;
 
 /// Writes down why an order is right for every eye: for each pair of polygons that it paints one before the other the
 /// plane that proves that nothing is hidden wrongly, and for each polygon that it leaves out that it faces away. What
 /// no proof is found for within a tolerance of 2e-9 of the model's size is sought with one of 1e-8 and then 5e-8, which
 /// the text tells; what is left is marked as such and counted. The order is one for every eye of the model
 /// (draworder::OrderMethod::Exact), or for those that a view split with nothing on one side leaves
-/// (orderstudy::with_min_distance); of the others nothing is stated.
-///
-/// `progress(done, all)` counts nodes and lists. The time grows with the pairs.
+/// (orderstudy::with_min_distance); of the others nothing is stated. The time grows with the pairs.
 OrderCertificate order_certificate(const models::polygons::PolygonModel& model, const draworder::DrawOrder& order,
-    const models::polygons::FileAxes& axes, const std::function<void(std::size_t, std::size_t)>& progress = {});
+    const models::polygons::FileAxes& axes, const CertifiedModel& bound_to, const CertificateProgress& progress = {});
 
 } // namespace octant::visuals::certificate

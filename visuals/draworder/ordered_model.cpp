@@ -27,6 +27,10 @@ using models::planar::PlanarModel;
 /// Polygons of larger models are split at once: their occlusion graphs alone would take seconds.
 constexpr std::size_t max_polygons_searched = 2'000;
 
+/// The lists of an order have together at most so many entries for each pair of the model's polygons: more take memory
+/// that nobody expects of a small model.
+constexpr double max_entries_of_a_pair = 64.0;
+
 /// The share of the search's time that the proof of its result may take.
 constexpr double proof_share = 0.02;
 /// That share of larger models, whose proof would not come to its end. Their orders are right by construction.
@@ -94,6 +98,11 @@ public:
     int max_splits() {
         make();
         return is_right_ ? order_->splits : std::numeric_limits<int>::max();
+    }
+
+    bool is_usable() {
+        make();
+        return is_right_;
     }
 
     /// The order; to be called last.
@@ -171,6 +180,16 @@ std::optional<OrderedModel> best_found(const models::polygons::PolygonModel& mod
         return std::nullopt;
     }
     const bool holds_for_every_eye = found->min_distance_m == 0.0;
+    const auto polygons = static_cast<double>(model.polygons.size());
+    const double max_entries = 0.5 * polygons * (polygons - 1.0) * max_entries_of_a_pair;
+    const int lists = found->order.list_count();
+    if (holds_for_every_eye && static_cast<double>(found->order.polygons().size()) > max_entries &&
+        fallback.is_usable()) {
+        found = fallback.take();
+        found->notes.push_back(
+            fmt::format("polygons are split by planes, because view cells would take {} lists", lists));
+        return found;
+    }
     if (holds_for_every_eye && found->splits > 0 && found->splits > fallback.max_splits()) { found = fallback.take(); }
     if (!reason.empty()) {
         found->notes.push_back(

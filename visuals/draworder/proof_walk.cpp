@@ -9,6 +9,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -148,9 +149,28 @@ private:
             for (const std::uint32_t later : below) { check_row(task.child, below, later); }
         }
         const Plane wall = wall_of(node);
-        check_side(task, node.front, wall);
-        check_side(task, node.back, {-wall.normal, -wall.offset_m});
+        const Task seen = without_hidden(task);
+        check_side(seen, node.front, wall);
+        check_side(seen, node.back, {-wall.normal, -wall.offset_m});
         if (is_first) { levels_.pop_back(); }
+    }
+
+    /// A task without the polygons that nothing below it paints and that face away from all of its eyes, which is
+    /// reported: it serves all lists below.
+    Task without_hidden(const Task& task) {
+        Task seen{task.child, task.region_planes, {}, task.in_plane};
+        const Polygons painted = contents(task.child); // ascending
+        for (const std::uint32_t polygon : task.expected) {
+            const bool is_painted = std::ranges::binary_search(painted, polygon);
+            const auto factors =
+                is_painted ? std::nullopt : find_back_facing_proof(local_, task.region_planes, polygon);
+            if (factors) {
+                sink_.add_back_facing(task.child, polygon, *factors);
+            } else {
+                seen.expected.push_back(polygon);
+            }
+        }
+        return seen;
     }
 
     void check_side(const Task& task, int child, const Plane& wall) {

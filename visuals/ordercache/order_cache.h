@@ -25,7 +25,7 @@ draworder::OrderedModel decode_order(std::string_view bytes, const models::polyg
 
 /// Raised whenever draworder::ordered() gives any model another result, or a file another layout: what was kept before
 /// is then computed anew.
-inline constexpr std::uint32_t order_version = 11;
+inline constexpr std::uint32_t order_version = 12;
 
 /// An ordered model, and how it was come by.
 struct CachedOrder {

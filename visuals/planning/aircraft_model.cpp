@@ -14,6 +14,7 @@
 #include <cassert>
 #include <cmath>
 #include <cstddef>
+#include <iterator>
 #include <limits>
 #include <optional>
 #include <span>
@@ -375,12 +376,45 @@ std::vector<std::uint32_t> first_indices_of(
     return first;
 }
 
+/// Where the opacity changes in a list of a model's polygons; none where all are opaque.
+std::vector<OpacityRun> opacity_runs_of(
+    const models::polygons::PolygonModel& model, std::span<const std::uint32_t> list) {
+    std::vector<OpacityRun> runs;
+    bool is_any_transparent = false;
+    for (std::uint32_t i = 0; i < list.size(); ++i) {
+        const models::Material& material = model.materials[model.polygons[list[i]].material];
+        const bool is_clear = is_transparent(material);
+        const float opacity = is_clear ? material.opacity : 1.0F;
+        is_any_transparent = is_any_transparent || is_clear;
+        if (runs.empty() || runs.back().opacity != opacity) { runs.push_back({i, opacity}); }
+    }
+    return is_any_transparent ? runs : std::vector<OpacityRun>();
+}
+
 } // namespace
 
-scene::IndexRange index_range(const AircraftModel& model, const draworder::DrawOrder::Range& range) {
-    const std::uint32_t first = model.first_indices[range.first];
-    return {first, model.first_indices[range.first + range.count] - first, static_cast<int>(range.count),
-        static_cast<std::uint32_t>(range.first)};
+void append_ranges(const IndexedOrder& polygons, const glm::dvec3& eye_in_body_m, draworder::DrawOrder::Walk& walk,
+    std::vector<scene::IndexRange>& ranges) {
+    const auto add = [&](std::size_t first, std::size_t end, float opacity) {
+        const std::uint32_t index = polygons.first_indices[first];
+        ranges.push_back({index, polygons.first_indices[end] - index, static_cast<int>(end - first),
+            static_cast<std::uint32_t>(first), opacity});
+    };
+    const std::span<const OpacityRun> runs = polygons.opacity_runs;
+    for (const auto& range : polygons.order.ranges_of(eye_in_body_m, walk)) {
+        const std::size_t end = range.first + range.count;
+        if (runs.empty()) {
+            add(range.first, end, 1.0F);
+            continue;
+        }
+        auto run = std::ranges::upper_bound(runs, range.first, {}, &OpacityRun::first);
+        for (std::size_t first = range.first; first < end; ++run) {
+            const std::size_t run_end = run == runs.end() ? end : std::min<std::size_t>(run->first, end);
+            add(first, run_end, std::prev(run)->opacity);
+            first = run_end;
+            if (run == runs.end()) { break; }
+        }
+    }
 }
 
 AircraftModel aircraft_model(models::polygons::PolygonModel polygons, draworder::DrawOrder order,
@@ -397,9 +431,12 @@ AircraftModel aircraft_model(models::polygons::PolygonModel polygons, draworder:
     const double radius_m = models::polygons::radius_m(polygons);
     const AxisAlignedBox hull = model_bounds(polygons);
     scene::ModelBuffers buffers = maker.take();
-    return {std::move(polygons), std::move(order), std::move(buffers), first_vertices_of(drawn),
+    std::vector<OpacityRun> opacity_runs = opacity_runs_of(polygons, order.polygons());
+    AircraftModel model{std::move(polygons), std::move(order), std::move(buffers), first_vertices_of(drawn),
         std::move(first_indices), all, std::move(file_list), hull, {radius_m, eye_m}, std::move(shaded), {}, nullptr,
         nullptr, {0.0}};
+    model.opacity_runs = std::move(opacity_runs);
+    return model;
 }
 
 namespace {
@@ -509,15 +546,27 @@ void add_moving_parts(AircraftModel& model, std::span<const MovingPartMesh> part
     }
 }
 
-void add_transparent(AircraftModel& model, const models::TriangleMesh& mesh, float opacity) {
-    assert(model.progressive != nullptr && opacity > 0.0F && opacity < 1.0F);
-    const std::size_t first = model.buffers.vertices.size();
-    model.transparent = append_level(model.buffers, {&mesh, 0.0}).range;
-    model.opacity = opacity;
-    for (scene::ModelVertex& vertex : std::span(model.buffers.vertices).subspan(first)) {
+void add_glass(AircraftModel& model, const models::polygons::PolygonModel& glass, draworder::DrawOrder order,
+    std::vector<glm::vec3> normals) {
+    assert(model.progressive != nullptr && normals.size() == glass.corner_vertices.size());
+    const models::polygons::PolygonModel drawn = closed(glass, normals);
+    BufferBuilder maker(drawn, normals);
+    maker.append(order.polygons());
+    std::vector<std::uint32_t> first_indices = first_indices_of(drawn, order.polygons());
+    const scene::ModelBuffers made = maker.take();
+    const auto first_vertex = static_cast<std::uint32_t>(model.buffers.vertices.size());
+    const auto first_index = static_cast<std::uint32_t>(model.buffers.indices.size());
+    for (scene::ModelVertex vertex : made.vertices) {
         vertex.polygon = 0;
+        vertex.part = 0;
+        if (vertex.texture != 0) { vertex.texture = texture_number(model.buffers, made.textures[vertex.texture - 1]); }
+        model.buffers.vertices.push_back(vertex);
         include(model, glm::dvec3(vertex.position_m));
     }
+    for (const std::uint32_t index : made.indices) { model.buffers.indices.push_back(first_vertex + index); }
+    for (std::uint32_t& first : first_indices) { first += first_index; }
+    std::vector<OpacityRun> runs = opacity_runs_of(glass, order.polygons());
+    model.glass = OrderedGlass{std::move(order), std::move(first_indices), std::move(runs)};
 }
 
 double reach_below_m(const AircraftModel& model) {

@@ -55,6 +55,20 @@ int select_level(std::span<const double> errors_m, double max_m, int before);
 /// square to the x axis. The scales cover `limits`. Loading work.
 overlay::InstrumentLayout dials_of(const models::polygons::PolygonModel& cockpit, const sim::AircraftLimits& limits);
 
+/// Where the opacity of the polygons of a list changes.
+struct OpacityRun {
+    std::uint32_t first = 0; ///< place in the list; the run ends where the next one begins
+    float opacity = 1.0F;
+};
+
+/// The transparent polygons of a progressive mesh, in the model's index buffer as `order` lists them.
+struct OrderedGlass {
+    draworder::DrawOrder order;
+    /// As AircraftModel::first_indices and AircraftModel::opacity_runs.
+    std::vector<std::uint32_t> first_indices;
+    std::vector<OpacityRun> opacity_runs;
+};
+
 /// A model as drawn. As polygons: the vertices of polygon after polygon, one a corner and one where another polygon's
 /// corner lies on a side; one index buffer that holds the polygons of the order's flat list and, behind them, all
 /// polygons in file order. As meshes, where it has levels of detail: behind both. Representation 0 .. n - 1 are the
@@ -87,10 +101,10 @@ struct AircraftModel {
     /// With a progressive mesh: the triangles of turning parts, which turn by the pivots of the polygons. All have
     /// polygon number 0: all are smooth, or all are flat.
     scene::IndexRange turning{};
+    /// Of the polygons of order.polygons(); empty where all are opaque.
+    std::vector<OpacityRun> opacity_runs{};
     /// With a progressive mesh: its transparent surfaces, which are blended over all others. All have polygon number 0.
-    scene::IndexRange transparent{};
-    /// The coverage of the transparent surfaces, 0 to 1.
-    float opacity = 1.0F;
+    std::optional<OrderedGlass> glass{};
     /// Of the progressive mesh; null where each vertex has one normal.
     std::shared_ptr<const refine::MeshCreases> creases = {};
     /// How controls move the parts of the turning triangles: first those of the pivots, then further parts; those at
@@ -114,8 +128,17 @@ struct AircraftModel {
     }
 };
 
-/// The part of a model's index buffer that holds a range of its order.
-scene::IndexRange index_range(const AircraftModel& model, const draworder::DrawOrder::Range& range);
+/// Polygons in an index buffer: an order, and of its list first_indices and opacity_runs.
+struct IndexedOrder {
+    const draworder::DrawOrder& order;
+    std::span<const std::uint32_t> first_indices;
+    std::span<const OpacityRun> opacity_runs;
+};
+
+/// Appends what an eye (body axes, metres) paints: parts of the index buffer, each of one opacity, the first painted
+/// first. `walk` is scratch memory.
+void append_ranges(const IndexedOrder& polygons, const glm::dvec3& eye_in_body_m, draworder::DrawOrder::Walk& walk,
+    std::vector<scene::IndexRange>& ranges);
 
 /// Makes the buffers of a model. `pilot_eye_m`: body axes. `normals`: for smooth shading, one for each corner; empty =
 /// by crease angle, which needs polygons that are not split. Loading work.
@@ -143,8 +166,10 @@ struct MovingPartMesh {
 /// Adds moving parts to a model with a progressive mesh. Loading work.
 void add_moving_parts(AircraftModel& model, std::span<const MovingPartMesh> parts);
 
-/// Adds transparent surfaces, in body axes, to a model with a progressive mesh. Loading work.
-void add_transparent(AircraftModel& model, const models::TriangleMesh& mesh, float opacity);
+/// Adds transparent polygons, in body axes, and their painting order to a model with a progressive mesh. `normals`: one
+/// for each corner. Loading work.
+void add_glass(AircraftModel& model, const models::polygons::PolygonModel& glass, draworder::DrawOrder order,
+    std::vector<glm::vec3> normals);
 
 /// The depth of the lowest corner of an upright model below its reference point, metres, with turning parts as at time
 /// 0. Loading work.

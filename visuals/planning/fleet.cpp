@@ -216,25 +216,30 @@ void Fleet::choose_representation(PlacedAircraft& aircraft, const FrameView& vie
     last = aircraft.representation;
 }
 
-/// Chooses the ranges of an aircraft's index buffer that are drawn: none of a refined mesh or of an absent aircraft.
+/// Chooses the ranges of an aircraft's index buffer that are drawn: of a refined mesh only its glass, of an absent
+/// aircraft none. Without painting orders the order of a model with glass has all that is opaque first
+/// (draworder::opaque_first).
 void Fleet::choose_ranges(PlacedAircraft& aircraft, const glm::dvec3& eye_in_body_m) {
     const AircraftModel& model = *aircraft.model;
     aircraft.ranges.clear();
     aircraft.list = {};
     if (aircraft.is_absent) { return; }
     if (is_mesh(aircraft)) {
-        if (!is_refined(aircraft)) { aircraft.ranges.push_back(model.levels[aircraft.representation].range); }
+        if (!is_refined(aircraft)) {
+            aircraft.ranges.push_back(model.levels[aircraft.representation].range);
+        } else if (const auto& glass = model.glass) {
+            append_ranges(
+                {glass->order, glass->first_indices, glass->opacity_runs}, eye_in_body_m, walk_, aircraft.ranges);
+        }
         return;
     }
-    if (settings_.surface.hidden_surface != scene::HiddenSurface::Octant) {
+    if (settings_.surface.hidden_surface != scene::HiddenSurface::Octant && model.opacity_runs.empty()) {
         aircraft.list = model.file_list;
         aircraft.ranges.push_back(model.file_order);
         return;
     }
     aircraft.list = model.order.polygons();
-    for (const auto& range : model.order.ranges_of(eye_in_body_m, walk_)) {
-        aircraft.ranges.push_back(index_range(model, range));
-    }
+    append_ranges({model.order, model.first_indices, model.opacity_runs}, eye_in_body_m, walk_, aircraft.ranges);
 }
 
 void Fleet::forget_frames() {

@@ -145,7 +145,8 @@ const scene::FramePlan& IdPlan::of(const scene::FramePlan& plan) {
                step.content == scene::PaintStep::Content::Transparent ||
                step.content == scene::PaintStep::Content::Overlay;
     });
-    std::ranges::fill(plan_.smooth, 0U); // a flat polygon has one colour
+    for (scene::PaintStep& step : plan_.steps) { step.opacity = 1.0F; } // the nearest polygon counts, glass or not
+    std::ranges::fill(plan_.smooth, 0U);                                // a flat polygon has one colour
     for (scene::AircraftDraw& draw : plan_.aircraft) {
         const auto far = std::ranges::find_if(far_ids_of_part_,
             [&](const FarModelIds& one) { return one.first_part == draw.first_part && one.far_model == draw.model; });

@@ -48,13 +48,10 @@ void place_polygon(
     }
 }
 
-scene::AircraftDraw draw_of(const PlacedAircraft& aircraft) {
-    if (aircraft.ranges.size() == 1) {
-        const scene::IndexRange& range = aircraft.ranges.front();
-        return draw_of(aircraft, range.first_index, range.index_count);
-    }
+scene::AircraftDraw draw_of(const PlacedAircraft& aircraft, std::span<const scene::IndexRange> ranges) {
+    if (ranges.size() == 1) { return draw_of(aircraft, ranges.front().first_index, ranges.front().index_count); }
     scene::AircraftDraw draw = draw_of(aircraft, 0, 0);
-    draw.ranges = aircraft.ranges;
+    draw.ranges = ranges;
     return draw;
 }
 

@@ -6,6 +6,7 @@
 
 #include <glm/mat4x4.hpp>
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -45,7 +46,7 @@ struct PlacedAircraft : ViewedAircraft {
     int cell = 0;
     /// Index into AircraftModel::errors_m.
     std::size_t representation = 0;
-    /// The ranges of the model's index buffer that are drawn, one after the other.
+    /// The ranges of the model's index buffer that are drawn, one after the other; of a refined mesh only its glass.
     std::vector<scene::IndexRange> ranges;
     /// The polygon numbers in the order of the index buffer: IndexRange::first_polygon is an index into it. Empty for a
     /// mesh.
@@ -70,6 +71,11 @@ inline bool is_refined(const PlacedAircraft& aircraft) {
     return is_mesh(aircraft) && aircraft.model->progressive != nullptr;
 }
 
+inline bool is_glass(const scene::IndexRange& range) { return range.opacity < 1.0F; }
+
+/// Whether something of an aircraft is transparent.
+inline bool has_glass(const PlacedAircraft& aircraft) { return std::ranges::any_of(aircraft.ranges, is_glass); }
+
 /// Writes the corners of a polygon of an aircraft, in world axes with the eye at the origin, to `placed`.
 void place_polygon(const PlacedAircraft& aircraft, std::uint32_t polygon, ViewPolygon& placed);
 
@@ -77,8 +83,11 @@ void place_polygon(const PlacedAircraft& aircraft, std::uint32_t polygon, ViewPo
 void place_polygon(
     const AircraftModel& model, std::span<const glm::dmat4> parts, std::uint32_t polygon, ViewPolygon& placed);
 
+/// The draw of a part of an aircraft's ranges; valid as long as these.
+scene::AircraftDraw draw_of(const PlacedAircraft& aircraft, std::span<const scene::IndexRange> ranges);
+
 /// The draw of a whole aircraft; valid as long as the aircraft and its ranges.
-scene::AircraftDraw draw_of(const PlacedAircraft& aircraft);
+inline scene::AircraftDraw draw_of(const PlacedAircraft& aircraft) { return draw_of(aircraft, aircraft.ranges); }
 
 /// The draw of a part of its model's index buffer.
 scene::AircraftDraw draw_of(const PlacedAircraft& aircraft, std::uint32_t first_index, std::uint32_t index_count);

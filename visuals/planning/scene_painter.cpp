@@ -106,11 +106,12 @@ public:
             scene::PaintStep::Content::Overlay, first, plan_.overlay.indices.size() - first, scene::DepthUse::None);
     }
 
-    /// Adds a whole aircraft. Consecutive aircraft that are drawn in the same way become one step.
-    void add(const scene::AircraftDraw& draw, scene::DepthUse depth = scene::DepthUse::None) {
+    /// Adds an aircraft or a part of it. Opaque ones that follow one another and are drawn in the same way become one
+    /// step. `opacity`: PaintStep::opacity.
+    void add(const scene::AircraftDraw& draw, scene::DepthUse depth = scene::DepthUse::None, float opacity = 1.0F) {
         const auto place = static_cast<std::uint32_t>(plan_.aircraft.size());
         plan_.aircraft.push_back(draw);
-        if (!plan_.steps.empty()) {
+        if (!plan_.steps.empty() && opacity == 1.0F) {
             scene::PaintStep& last = plan_.steps.back();
             if (last.content == scene::PaintStep::Content::Aircraft && last.clip == scene::PaintStep::no_clip &&
                 last.depth == depth && last.opacity == 1.0F && last.first + last.count == place) {
@@ -118,19 +119,8 @@ public:
                 return;
             }
         }
-        plan_.steps.push_back({scene::PaintStep::Content::Aircraft, place, 1, scene::PaintStep::no_clip, depth});
-    }
-
-    /// Adds the transparent surfaces of an aircraft, blended by depth. `opacity`: PaintStep::opacity.
-    void add_glass(const scene::AircraftDraw& draw, float opacity) {
-        const auto place = static_cast<std::uint32_t>(plan_.aircraft.size());
-        plan_.aircraft.push_back(draw);
-        scene::PaintStep& step = plan_.steps.emplace_back();
-        step.content = scene::PaintStep::Content::Aircraft;
-        step.first = place;
-        step.count = 1;
-        step.depth = scene::DepthUse::Nearest;
-        step.opacity = opacity;
+        plan_.steps.push_back(
+            {scene::PaintStep::Content::Aircraft, place, 1, scene::PaintStep::no_clip, depth, opacity});
     }
 
     /// Adds a refined mesh, by depth.
@@ -550,7 +540,7 @@ private:
         collect(group);
         if (members_.empty() && group_transparents_.empty()) { return; }
         if (!in_view(group.box, frame_->view)) {
-            for (const PlacedAircraft* member : members_) { steps_.add(draw_of(*member)); }
+            for (const PlacedAircraft* member : members_) { add_ranges(*member, scene::DepthUse::None); }
             return;
         }
         in_front_.find(group.box, frame_->mesher, frame_->ground.all, frame_->view.camera.eye_m);
@@ -603,39 +593,46 @@ private:
              ++next) {
             paint_transparent(*next);
         }
-        if (!members_.empty()) { paint_members(group); }
-        for (; next != group_transparents_.end(); ++next) { paint_transparent(*next); }
-    }
-
-    /// Paints the aircraft of a group: one alone in the order of its polygons, several polygon by polygon, and groups
-    /// with a mesh by depth.
-    void paint_members(const OverlapGroup& group) {
-        const bool has_mesh = std::ranges::any_of(members_, [](const PlacedAircraft* one) { return is_mesh(*one); });
-        const bool alone = in_front_.intersecting().empty() && members_.size() == 1;
-        counts_->overlap_groups += alone ? 0 : 1;
-        if (has_mesh) {
-            paint_members_by_depth(group);
-        } else if (alone) {
-            steps_.add(draw_of(*members_.front()));
-        } else {
-            paint_intersecting(group);
+        const bool is_by_depth = !members_.empty() && paint_members(group);
+        for (; next != group_transparents_.end(); ++next) {
+            if (next->place != Transparent::Place::Glass || is_by_depth) { paint_transparent(*next); }
         }
     }
 
+    /// Paints the aircraft of a group: one alone in the order of its polygons, several polygon by polygon, and by
+    /// depth, without their glass, where one is a mesh or has glass, which must not be painted twice. Returns whether
+    /// by depth.
+    bool paint_members(const OverlapGroup& group) {
+        const bool has_mesh = std::ranges::any_of(members_, [](const PlacedAircraft* one) { return is_mesh(*one); });
+        const bool any_glass = std::ranges::any_of(members_, [](const PlacedAircraft* one) { return has_glass(*one); });
+        const bool alone = in_front_.intersecting().empty() && members_.size() == 1;
+        counts_->overlap_groups += alone ? 0 : 1;
+        if (has_mesh || (any_glass && !alone)) {
+            paint_members_by_depth(group);
+            return true;
+        }
+        if (alone) {
+            add_ranges(*members_.front(), scene::DepthUse::None);
+            return false;
+        }
+        return paint_intersecting(group);
+    }
+
     /// Paints aircraft that intersect each other or the ground: polygon by polygon, or by depth where that takes too
-    /// long.
-    void paint_intersecting(const OverlapGroup& group) {
+    /// long. Returns whether by depth.
+    bool paint_intersecting(const OverlapGroup& group) {
         const StepWriter::Checkpoint before = steps_.checkpoint();
         const double rounding_rad = paint_rounding_px * frame_->view.pixel_rad;
         const auto cuts =
             repaint_.paint(members_, group.box, frame_->ground, in_front_.intersecting(), rounding_rad, steps_);
         if (cuts) {
             counts_->cuts += *cuts;
-            return;
+            return false;
         }
         steps_.roll_back(before);
         counts_->unordered += static_cast<int>(members_.size());
         paint_members_by_depth(group);
+        return true;
     }
 
     /// Paints a group by depth, with no other depth in the buffer than that of the ground that intersects it.
@@ -645,10 +642,28 @@ private:
         for (const PlacedAircraft* member : members_) { paint(*member, scene::DepthUse::Nearest); }
     }
 
-    /// Paints a whole aircraft. Refined meshes are always drawn by depth.
+    /// What of an aircraft is drawn.
+    enum class Ranges { All, Opaque, Glass };
+
+    /// Adds ranges of an aircraft in their order.
+    void add_ranges(const PlacedAircraft& aircraft, scene::DepthUse depth, Ranges wanted = Ranges::All) {
+        const std::span<const scene::IndexRange> ranges(aircraft.ranges);
+        std::size_t end = 0;
+        for (std::size_t first = 0; first < ranges.size(); first = end) {
+            const scene::IndexRange& run = ranges[first];
+            end = first + 1;
+            while (end < ranges.size() && ranges[end].opacity == run.opacity) { ++end; }
+            if (wanted != Ranges::All && is_glass(run) != (wanted == Ranges::Glass)) { continue; }
+            scene::AircraftDraw draw = draw_of(aircraft, ranges.subspan(first, end - first));
+            if (is_refined(aircraft)) { draw.first_smooth = frame_->smooth.turning_word_index(); }
+            steps_.add(draw, depth, run.opacity);
+        }
+    }
+
+    /// Paints a whole aircraft, by depth without its glass. Refined meshes are always drawn by depth.
     void paint(const PlacedAircraft& aircraft, scene::DepthUse depth) {
         if (!is_refined(aircraft)) {
-            steps_.add(draw_of(aircraft), depth);
+            add_ranges(aircraft, depth, depth == scene::DepthUse::None ? Ranges::All : Ranges::Opaque);
             return;
         }
         scene::RefinedDraw draw = frame_->fleet.refined()[aircraft.number]->draw();
@@ -670,11 +685,7 @@ private:
             steps_.add_transparent(one.range);
             return;
         }
-        const PlacedAircraft& aircraft = frame_->fleet.placed()[one.box];
-        const scene::IndexRange& glass = aircraft.model->transparent;
-        scene::AircraftDraw draw = draw_of(aircraft, glass.first_index, glass.index_count);
-        draw.first_smooth = frame_->smooth.turning_word_index();
-        steps_.add_glass(draw, aircraft.model->opacity);
+        add_ranges(frame_->fleet.placed()[one.box], scene::DepthUse::Nearest, Ranges::Glass);
     }
 
     scene::FramePlan& plan_;

@@ -728,9 +728,7 @@ void Transparents::make(
     parts.add_effects(view, request, fleet);
     for (std::size_t i = 0; i < fleet.bounding_boxes().size(); ++i) {
         const PlacedAircraft& aircraft = fleet.placed()[i];
-        if (is_refined(aircraft) && aircraft.model->transparent.index_count > 0) {
-            parts.add(Transparent::Place::Glass, i, {});
-        }
+        if (has_glass(aircraft)) { parts.add(Transparent::Place::Glass, i, {}); }
     }
     if (parts.ribbon) { parts.add_ribbon(view, request.states.front().time_s, fleet.bounding_boxes()); }
     std::ranges::sort(parts.list, {}, [](const Transparent& one) { return std::pair(one.box, one.place); });

@@ -30,7 +30,7 @@ struct Transparent {
     enum class Place : std::uint8_t {
         Apart,     ///< Has a box of its own: before the group if the centre of that box is farther away, else last.
         Behind,    ///< An effect, painted before its aircraft.
-        Glass,     ///< Transparent surfaces of a refined aircraft, painted by depth; has no range.
+        Glass,     ///< Transparent surfaces of an aircraft that is painted by depth; has no range.
         InFront,   ///< An effect, painted after its aircraft.
         CloudLayer ///< The layer of clouds at Transparents::cloud_height_m(); has no box.
     };

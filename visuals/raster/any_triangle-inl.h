@@ -396,22 +396,56 @@ HWY_INLINE std::uint32_t nearer_samples(
     return nearer & mask;
 }
 
-/// Records where a transparent triangle is seen: not behind nearer triangles of its group or of others.
-HWY_INLINE void record_transparent_surface(
-    const TileTriangle& one, const TileJob& job, const SampleLanes& lanes, TileBuffer& buffer) {
-    const DepthStepper walk(*one.extra, job, lanes);
+/// Joins two adjacent triangles of one pixel, so that no line shows where they meet.
+HWY_INLINE void join(const TransparentPixel& neighbour, TransparentPixel& transparent) {
+    const std::uint32_t own = transparent.share;
+    const std::uint32_t all = own + neighbour.share;
+    transparent.mask = static_cast<std::uint16_t>(transparent.mask | neighbour.mask);
+    for (std::size_t k = 0; k < 3; ++k) {
+        const std::uint32_t sum = own * transparent.colour[k] + std::uint32_t{neighbour.share} * neighbour.colour[k];
+        transparent.colour[k] = static_cast<std::uint16_t>((sum + all / 2) / all);
+    }
+    transparent.share = static_cast<std::uint16_t>(all);
+}
+
+/// Records what is seen of a transparent triangle in a pixel, to be blended later over those of its group that were
+/// recorded before.
+HWY_INLINE void record(const TransparentPixel& transparent, TileBuffer& buffer) {
+    if (transparent.share == 0) { return; }
+    std::uint32_t& last = buffer.last_transparent[transparent.pixel];
+    if (last != 0 && (buffer.transparent_pixels[last - 1].mask & transparent.mask) == 0) {
+        join(transparent, buffer.transparent_pixels[last - 1]);
+    } else {
+        buffer.transparent_pixels.push_back(transparent);
+        last = static_cast<std::uint32_t>(buffer.transparent_pixels.size());
+    }
+}
+
+/// Ends a group of recorded pixels, of which `first` is the first one.
+HWY_INLINE void end_record(std::size_t first, TileBuffer& buffer) {
+    if (buffer.transparent_pixels.size() == first) { return; }
+    buffer.group_first_transparent.push_back(first);
+    for (std::size_t i = first; i < buffer.transparent_pixels.size(); ++i) {
+        buffer.last_transparent[buffer.transparent_pixels[i].pixel] = 0;
+    }
+}
+
+/// Records where a triangle of a transparent surface, whose coverage is at hand, is seen. `seen_of(place in the tile,
+/// pixel, samples not behind nearer groups)` says in which of these samples.
+template <class SeenOf>
+HWY_INLINE void record_surface(const TileTriangle& one, const TileJob& job, TileBuffer& buffer, const SeenOf& seen_of) {
     buffer.fragments.count = 0;
     for_each_covered(job, buffer, [&](const glm::ivec2& at, std::size_t pixel, std::uint32_t mask) HWY_ATTR {
         const auto free = mask & ~std::uint32_t{buffer.covered[pixel]};
         if (free == 0) { return; }
-        const std::uint32_t seen =
-            nearer_samples(free, walk.at(at.x, at.y), walk, buffer.depth.data() + pixel * samples);
+        const std::uint32_t seen = seen_of(at, pixel, free);
         if (seen != 0 && one.surface != nullptr) {
             buffer.fragments.add(pixel, seen);
         } else if (seen != 0) {
-            buffer.transparent_pixels.push_back({static_cast<std::uint16_t>(pixel), static_cast<std::uint16_t>(seen),
-                colour_of(one, job, job.first_px.x + at.x, job.first_px.y + at.y),
-                TransparentPixel::share_of(one.extra->opacity, std::popcount(seen))});
+            record({static_cast<std::uint16_t>(pixel), static_cast<std::uint16_t>(seen),
+                       colour_of(one, job, job.first_px.x + at.x, job.first_px.y + at.y),
+                       TransparentPixel::share_of(one.extra->opacity, std::popcount(seen))},
+                buffer);
         }
     });
     if (one.surface == nullptr) { return; }
@@ -420,9 +454,19 @@ HWY_INLINE void record_transparent_surface(
     for_each_fragment(one, job, buffer.fragments,
         [&](std::size_t pixel, std::uint32_t seen, const PixelColour& colour, std::uint32_t alpha) HWY_ATTR {
             const float own = share > 0.0F ? share * static_cast<float>(alpha) : opacity;
-            buffer.transparent_pixels.push_back({static_cast<std::uint16_t>(pixel), static_cast<std::uint16_t>(seen),
-                colour, TransparentPixel::share_of(own, std::popcount(seen))});
+            record({static_cast<std::uint16_t>(pixel), static_cast<std::uint16_t>(seen), colour,
+                       TransparentPixel::share_of(own, std::popcount(seen))},
+                buffer);
         });
+}
+
+/// Records where a transparent triangle is seen: not behind nearer triangles of its group or of others.
+HWY_INLINE void record_surface_by_depth(
+    const TileTriangle& one, const TileJob& job, const SampleLanes& lanes, TileBuffer& buffer) {
+    const DepthStepper walk(*one.extra, job, lanes);
+    record_surface(one, job, buffer, [&](const glm::ivec2& at, std::size_t pixel, std::uint32_t free) HWY_ATTR {
+        return nearer_samples(free, walk.at(at.x, at.y), walk, buffer.depth.data() + pixel * samples);
+    });
 }
 
 /// The samples of a pixel that show a triangle of its group.
@@ -469,14 +513,13 @@ HWY_INLINE void paint_group(
     for (std::size_t i = 0; i < group.size(); ++i) {
         cover(group[i], job, lanes, buffer);
         if (group[i].extra->opacity < 1.0F) {
-            record_transparent_surface(group[i], job, lanes, buffer);
+            buffer.last_transparent.resize(TileBuffer::pixels, 0);
+            record_surface_by_depth(group[i], job, lanes, buffer);
         } else {
             draw_by_depth(group[i], static_cast<std::uint32_t>(i + 1), job, lanes, buffer);
         }
     }
-    if (buffer.transparent_pixels.size() > transparent_before) {
-        buffer.group_first_transparent.push_back(transparent_before);
-    }
+    end_record(transparent_before, buffer);
     // Each of its samples shows one triangle: they are coloured in any order.
     for (std::size_t i = 0; i < group.size(); ++i) {
         cover_seen(group[i], static_cast<std::uint32_t>(i + 1), job, buffer);
@@ -484,54 +527,51 @@ HWY_INLINE void paint_group(
     }
 }
 
-// -- Transparent triangles (clouds, ribbons, exhaust). The tile is painted from near to far, so a transparent triangle
-// covers nothing: its uncovered samples are recorded, and blended when the colours behind it are known.
+// -- Transparent triangles (clouds, ribbons, exhaust; glass in painting order). The tile is painted from near to far,
+// so a transparent triangle covers nothing: its uncovered samples are recorded, and blended when the colours behind it
+// are known.
 
 HWY_INLINE bool is_transparent_fill(const TileTriangle& one) { return one.triangle->fill == Fill::Transparent; }
 
-/// Joins two adjacent triangles of one pixel, so that no line shows where they meet.
-HWY_INLINE void join(const TransparentPixel& neighbour, TransparentPixel& transparent) {
-    const std::uint32_t own = transparent.share;
-    const std::uint32_t all = own + neighbour.share;
-    transparent.mask = static_cast<std::uint16_t>(transparent.mask | neighbour.mask);
-    for (std::size_t k = 0; k < 3; ++k) {
-        const std::uint32_t sum = own * transparent.colour[k] + std::uint32_t{neighbour.share} * neighbour.colour[k];
-        transparent.colour[k] = static_cast<std::uint16_t>((sum + all / 2) / all);
-    }
-    transparent.share = static_cast<std::uint16_t>(all);
+HWY_INLINE bool is_transparent_surface(const TileTriangle& one) {
+    return one.extra != nullptr && one.extra->opacity < 1.0F;
+}
+
+/// Whether a triangle is blended over what was painted before it, without depth.
+HWY_INLINE bool is_blended_in_order(const TileTriangle& one) {
+    return is_transparent_fill(one) || (one.triangle->group == 0 && is_transparent_surface(one));
+}
+
+HWY_INLINE void record_fill(const TileTriangle& one, const TileJob& job, TileBuffer& buffer) {
+    for_each_covered(job, buffer, [&](const glm::ivec2& at, std::size_t pixel, std::uint32_t mask) HWY_ATTR {
+        const auto seen = mask & ~std::uint32_t{buffer.covered[pixel]};
+        if (seen == 0) { return; }
+        const auto sixteenths = [&](std::size_t k) {
+            return sixteenths_of(one.triangle->gradients.level(k, job.first_px + at));
+        };
+        const auto alpha = (sixteenths(3) * 4096U + 2040U) / 4080U;
+        const std::uint32_t share = alpha * static_cast<std::uint32_t>(std::popcount(seen)) >> 4U;
+        record({static_cast<std::uint16_t>(pixel), static_cast<std::uint16_t>(seen),
+                   {sixteenths(0), sixteenths(1), sixteenths(2)}, static_cast<std::uint16_t>(share)},
+            buffer);
+    });
 }
 
 /// Records where transparent triangles that follow each other in the tile's list are seen.
 HWY_NOINLINE void record_transparent(
     std::span<const TileTriangle> transparents, const TileJob& job, const SampleLanes& lanes, TileBuffer& buffer) {
     const std::size_t first = buffer.transparent_pixels.size();
-    buffer.group_first_transparent.push_back(first);
     buffer.last_transparent.resize(TileBuffer::pixels, 0);
     for (const TileTriangle& one : transparents) {
         cover(one, job, lanes, buffer);
-        for_each_covered(job, buffer, [&](const glm::ivec2& at, std::size_t pixel, std::uint32_t mask) HWY_ATTR {
-            const auto seen = mask & ~std::uint32_t{buffer.covered[pixel]};
-            if (seen == 0) { return; }
-            const auto sixteenths = [&](std::size_t k) {
-                return sixteenths_of(one.triangle->gradients.level(k, job.first_px + at));
-            };
-            const auto alpha = (sixteenths(3) * 4096U + 2040U) / 4080U;
-            const std::uint32_t share = alpha * static_cast<std::uint32_t>(std::popcount(seen)) >> 4U;
-            if (share == 0) { return; }
-            const TransparentPixel transparent{static_cast<std::uint16_t>(pixel), static_cast<std::uint16_t>(seen),
-                {sixteenths(0), sixteenths(1), sixteenths(2)}, static_cast<std::uint16_t>(share)};
-            std::uint32_t& last = buffer.last_transparent[pixel];
-            if (last != 0 && (buffer.transparent_pixels[last - 1].mask & seen) == 0) {
-                join(transparent, buffer.transparent_pixels[last - 1]);
-            } else {
-                buffer.transparent_pixels.push_back(transparent);
-                last = static_cast<std::uint32_t>(buffer.transparent_pixels.size());
-            }
-        });
+        if (is_transparent_fill(one)) {
+            record_fill(one, job, buffer);
+        } else {
+            record_surface(
+                one, job, buffer, [](const glm::ivec2&, std::size_t, std::uint32_t free) HWY_ATTR { return free; });
+        }
     }
-    for (std::size_t i = first; i < buffer.transparent_pixels.size(); ++i) {
-        buffer.last_transparent[buffer.transparent_pixels[i].pixel] = 0;
-    }
+    end_record(first, buffer);
 }
 
 } // namespace HWY_NAMESPACE

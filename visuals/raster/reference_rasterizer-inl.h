@@ -174,10 +174,6 @@ HWY_INLINE void paint_pixels_over(
             HWY_ATTR { put(pixel, colour); });
 }
 
-HWY_INLINE bool is_transparent_surface(const TileTriangle& one) {
-    return one.extra != nullptr && one.extra->opacity < 1.0F;
-}
-
 /// Whether a tile is painted far to near: each triangle paints over those before it. So it is where the job says so,
 /// and where all triangles belong to one depth group; never with transparent surfaces, which are recorded separately.
 HWY_INLINE bool is_far_to_near(const TileJob& job, const SampleLanes& lanes) {

@@ -303,8 +303,8 @@ HWY_INLINE void paint_near_to_far(const TileJob& job, const SampleLanes& lanes, 
         prefetch_triangle(job, end);
         const std::uint16_t group = job.triangles[end - 1].triangle->group;
         std::size_t first = end - 1;
-        if (is_transparent_fill(job.triangles[first])) {
-            while (first > 0 && is_transparent_fill(job.triangles[first - 1])) { --first; }
+        if (is_blended_in_order(job.triangles[first])) {
+            while (first > 0 && is_blended_in_order(job.triangles[first - 1])) { --first; }
             record_transparent({job.triangles.data() + first, end - first}, job, lanes, buffer);
         } else if (group == 0) {
             const TileTriangle& one = job.triangles[first];

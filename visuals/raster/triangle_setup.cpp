@@ -151,7 +151,7 @@ void TriangleSetup::add(const VertexOutputs& corners, const std::array<std::uint
         places_ = surface_->places;
         flat_haze_share_ = vertices[a].value[3];
     }
-    if (!is_cut && style_.group == 0 && style_.clip_planes.empty()) {
+    if (!is_cut && style_.group == 0 && style_.clip_planes.empty() && style_.opacity == 1.0F) {
         if (fill_ == Fill::Gouraud) {
             add_placed(vertices[a], vertices[b], vertices[c], list);
             return;
@@ -163,7 +163,9 @@ void TriangleSetup::add(const VertexOutputs& corners, const std::array<std::uint
     }
     const std::array<ClipVertex, 3> three{ClipVertex{vertices[a], corners.clip[a], places_[0]},
         ClipVertex{vertices[b], corners.clip[b], places_[1]}, ClipVertex{vertices[c], corners.clip[c], places_[2]}};
-    if (style_.group != 0 || fill_ != Fill::Gouraud || !style_.clip_planes.empty()) { add_extra(three, list); }
+    if (style_.group != 0 || fill_ != Fill::Gouraud || !style_.clip_planes.empty() || style_.opacity < 1.0F) {
+        add_extra(three, list);
+    }
     if (is_cut) {
         add_cut(three, list);
     } else {
@@ -216,10 +218,8 @@ void TriangleSetup::add_extra(std::span<const ClipVertex, 3> corners, TriangleLi
     TriangleExtra extra;
     const AttributePlane over_w = solver.plane({1.0, 1.0, 1.0});
     extra.over_w[4] = over_w;
-    if (style_.group != 0) {
-        set_depth(extra, over_w, style_, projection_);
-        extra.opacity = style_.opacity;
-    }
+    extra.opacity = style_.opacity;
+    if (style_.group != 0) { set_depth(extra, over_w, style_, projection_); }
     if (fill_ != Fill::Gouraud && fill_ != Fill::Lit) {
         for (std::size_t i = 0; i < 4; ++i) {
             extra.over_w[i] = solver.plane({static_cast<double>(corners[0].vertex.value[i]),

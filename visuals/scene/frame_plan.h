@@ -143,8 +143,9 @@ struct PaintStep {
     /// Index into FramePlan::clips; `no_clip` = not clipped.
     std::uint32_t clip = no_clip;
     DepthUse depth = DepthUse::None;
-    /// For Aircraft only: coverage of the background, 0 to 1. Surfaces below 1 (glass) are blended where they are
-    /// nearer than the depth buffer (`depth` is Nearest) and write no depth; they come after everything behind them.
+    /// For Aircraft only: coverage of the background, 0 to 1. Surfaces below 1 (glass) are blended and come after
+    /// everything behind them: where they are nearer than the depth buffer, without a change of it (`depth` is
+    /// Nearest), or in painting order (None).
     float opacity = 1.0F;
 };
 
@@ -156,6 +157,8 @@ struct IndexRange {
     /// The index of its first polygon in the list whose order the index buffer has (DrawOrder::polygons()); 0 for a
     /// mesh.
     std::uint32_t first_polygon = 0;
+    /// Of all its polygons, as PaintStep::opacity.
+    float opacity = 1.0F;
 };
 
 /// Colours that polygons are shown in instead of their own, without textures, as ColourVertex::colour; 0 = their own.

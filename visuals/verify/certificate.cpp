@@ -7,6 +7,7 @@
 #include "sim/base/text_scanner.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -31,11 +32,18 @@ constexpr double largest_number = 1e12;
 constexpr double min_normal = 0.5; // The largest part of a unit vector is 0.577 at least.
 constexpr double longest_normal = 1.5;
 
+constexpr TextRules certificate_rules{.comment = '#', .joins_lines = true};
+
+} // namespace
+
 /// Reads what stands in a certificate's lines, as certificate-format.md describes them.
 class CertificateTokens : public TextScanner {
 public:
+    explicit CertificateTokens(const std::filesystem::path& path)
+        : TextScanner(TextScanner::of_file(path, certificate_rules)) {}
+
     CertificateTokens(const std::filesystem::path& path, std::string_view text)
-        : TextScanner(path, text, {.comment = '#'}) {}
+        : TextScanner(path, text, certificate_rules) {}
 
     bool is_at_end_of_line() { return peek().empty(); }
 
@@ -97,17 +105,25 @@ public:
 
     /// Reads the line at hand if it is one of these; false if its first word is another.
     bool take() {
-        return words_.skip("tolerance") ? read_tolerance()
-               : words_.skip("about")   ? read_reference()
-               : words_.skip("vertex")  ? read_vertex()
-               : words_.skip("axis")    ? read_axis()
-               : words_.skip("polygon") ? read_polygon(false)
-               : words_.skip("turning") ? read_polygon(true)
-               : words_.skip("list")    ? read_list()
-                                        : words_.skip("node") && read_node();
+        return words_.skip("model")       ? read_model()
+               : words_.skip("tolerance") ? read_tolerance()
+               : words_.skip("about")     ? read_reference()
+               : words_.skip("vertex")    ? read_vertex()
+               : words_.skip("axis")      ? read_axis()
+               : words_.skip("polygon")   ? read_polygon(false)
+               : words_.skip("turning")   ? read_polygon(true)
+               : words_.skip("list")      ? read_list()
+                                          : words_.skip("node") && read_node();
     }
 
 private:
+    bool read_model() {
+        if (!made_.model_hash.empty()) { words_.refuse_next("one model"); }
+        made_.model_hash = std::string(words_.word("the hash of a model"));
+        made_.model = std::string(words_.rest_of_line());
+        return true;
+    }
+
     bool read_tolerance() {
         if (made_.tolerance > 0.0) { words_.refuse_next("one tolerance"); }
         made_.tolerance = words_.number("a tolerance", 1e-30, largest_number);
@@ -210,6 +226,8 @@ struct RegionPlaneCounts {
     std::vector<std::size_t> by_list;
 };
 
+namespace {
+
 constexpr std::size_t unseen = std::numeric_limits<std::size_t>::max();
 
 void require_some(const Certificate& certificate, bool some, const char* what) {
@@ -265,99 +283,90 @@ private:
 /// Counts the region planes down from the first node, or for the only list where there is no node. Throws Error unless
 /// nodes and lists are one tree and the certificate has a tolerance and polygons.
 RegionPlaneCounts count_region_planes(const Certificate& certificate) {
+    require_some(certificate, !certificate.model_hash.empty(), "a model");
     require_some(certificate, certificate.tolerance > 0.0, "a tolerance");
     require_some(certificate, !certificate.polygons.empty(), "at least one polygon");
     require_some(certificate, !certificate.lists.empty(), "at least one list");
     return RegionPlaneCounter(certificate).count();
 }
 
-/// The kind of a statement.
-enum class StatementKind { Pairs, Sum, Never, Away, Unproved };
+/// The words that begin statements, and what they say.
+constexpr std::array<std::pair<std::string_view, Statement::Kind>, 5> statement_words{
+    {{"pairs", Statement::Kind::Pairs}, {"sum", Statement::Kind::Sum}, {"never", Statement::Kind::Never},
+        {"away", Statement::Kind::Away}, {"unproved", Statement::Kind::UnprovedPair}}};
 
-/// Reads the statements of a certificate, whose structure is known: pairs, sum, never, away and unproved.
+constexpr std::string_view expected_statement = "pairs, sum, never, away or unproved";
+
+} // namespace
+
+/// Reads statements: pairs, sum, never, away and unproved.
 class StatementReader {
 public:
-    /// What is read is put into `made`, whose nodes, lists and polygons are there.
-    StatementReader(CertificateTokens& words, Certificate& made, RegionPlaneCounts region_planes)
-        : words_(words), made_(made), region_plane_counts_(std::move(region_planes)) {}
+    StatementReader(CertificateTokens& words, const Certificate& certificate)
+        : words_(words), certificate_(certificate), region_plane_counts_(count_region_planes(certificate)) {}
 
-    /// Reads what follows the first word of a statement.
-    void take(StatementKind kind) {
-        Statements& statements = current_statements();
-        const std::uint32_t polygon = this->polygon();
-        switch (kind) {
-        case StatementKind::Pairs:
-            return read_row(statements, polygon);
-        case StatementKind::Sum:
-            return read_factors(statements, PairStatement::Kind::Sum, polygon);
-        case StatementKind::Never:
-            return read_factors(statements, PairStatement::Kind::Never, polygon);
-        case StatementKind::Away:
-            return read_back_facing(statements, polygon);
-        case StatementKind::Unproved:
-            return read_unproved(statements, polygon);
+    /// Reads what follows the first word of a statement; returns the node or list that it is about.
+    int take(Statement::Kind kind, Statement& statement) {
+        const int child = part();
+        statement.kind = kind;
+        statement.factors = {};
+        statement.runs.clear();
+        statement.line = words_.line_number();
+        statement.pair = {};
+        const std::uint32_t first = polygon();
+        if (kind == Statement::Kind::Pairs) {
+            statement.pair.later = first;
+            while (!words_.is_at_end_of_line()) { statement.runs.push_back(run()); }
+            return child;
         }
+        statement.pair.earlier = first;
+        if (kind == Statement::Kind::Away) {
+            statement.factors.earlier = 1.0;
+            read_region_planes(statement.factors);
+        } else if (kind == Statement::Kind::UnprovedPair && words_.is_at_end_of_line()) {
+            statement.kind = Statement::Kind::UnprovedPolygon;
+        } else {
+            statement.pair.later = polygon();
+            if (kind == Statement::Kind::UnprovedPair) { return child; }
+            statement.factors.earlier = factor();
+            statement.factors.later = factor();
+            read_region_planes(statement.factors);
+        }
+        return child;
     }
 
 private:
-    /// The statements of the list or node that the line names next.
-    Statements& current_statements() {
+    /// The list or node that the line names next.
+    int part() {
         const bool of_list = words_.skip("list");
         if (!of_list && !words_.skip("node")) { words_.refuse_next("list or node"); }
-        const std::uint32_t number =
-            of_list ? words_.index("a list", made_.lists.size()) : words_.index("a node", made_.nodes.size());
-        current_region_plane_count_ =
-            of_list ? region_plane_counts_.by_list[number] : region_plane_counts_.by_node[number];
-        return of_list ? made_.by_list[number] : made_.by_node[number];
+        const std::uint32_t number = of_list ? words_.index("a list", certificate_.lists.size())
+                                             : words_.index("a node", certificate_.nodes.size());
+        region_planes_ = of_list ? region_plane_counts_.by_list[number] : region_plane_counts_.by_node[number];
+        return of_list ? ~static_cast<int>(number) : static_cast<int>(number);
     }
 
-    void read_factors(Statements& statements, PairStatement::Kind kind, std::uint32_t polygon) {
-        PairStatement statement;
-        statement.kind = kind;
-        statement.pair = {polygon, this->polygon()};
-        statement.line = words_.line_number();
-        statement.factors.earlier = factor();
-        statement.factors.later = factor();
-        read_region_planes(statement.factors);
-        words_.add(statements.pairs, std::move(statement));
-    }
-
-    std::uint32_t polygon() { return words_.index("a polygon", made_.polygons.size()); }
+    std::uint32_t polygon() { return words_.index("a polygon", certificate_.polygons.size()); }
 
     double factor() { return words_.number("a factor", 0.0, largest_number); }
 
-    /// The factor of 1 and those of the region planes.
+    /// The factor of 1, and those of region planes as NUMBER:FACTOR.
     void read_region_planes(StatedFactors& factors) {
         factors.one = factor();
-        for (std::size_t i = 0; i < current_region_plane_count_; ++i) { factors.region_planes.push_back(factor()); }
-    }
-
-    void read_back_facing(Statements& statements, std::uint32_t polygon) {
-        BackFacingStatement statement;
-        statement.line = words_.line_number();
-        statement.factors.earlier = 1.0;
-        read_region_planes(statement.factors);
-        if (!statements.away.emplace(polygon, std::move(statement)).second) { words_.refuse_last("each polygon once"); }
-    }
-
-    /// A polygon or a pair without a proof.
-    void read_unproved(Statements& statements, std::uint32_t polygon) {
-        ++made_.unproved;
-        made_.first_unproved = made_.first_unproved.value_or(words_.line_number());
-        if (words_.is_at_end_of_line()) {
-            statements.unproved.emplace(polygon, words_.line_number());
-        } else {
-            words_.add(statements.pairs,
-                {PairStatement::Kind::Unproved, {polygon, this->polygon()}, {}, words_.line_number()});
+        while (!words_.is_at_end_of_line()) {
+            const std::string_view word = words_.word("a region plane");
+            const std::size_t colon = std::min(word.find(':'), word.size());
+            const auto plane = whole_number(word.substr(0, colon));
+            const auto value = finite_number(word.substr(std::min(colon + 1, word.size())));
+            const long least =
+                factors.region_planes.empty() ? 0 : static_cast<long>(factors.region_planes.back().plane) + 1;
+            if (!plane || *plane < least || *plane >= static_cast<long>(region_planes_)) {
+                words_.refuse_last(
+                    fmt::format("a region plane, {} to below {}, and its factor", least, region_planes_));
+            }
+            if (!value || *value < 0.0 || *value > largest_number) { words_.refuse_last("a factor"); }
+            factors.region_planes.push_back({static_cast<std::uint32_t>(*plane), *value});
         }
-    }
-
-    void read_row(Statements& statements, std::uint32_t later) {
-        PairRow row;
-        row.later = later;
-        row.line = words_.line_number();
-        while (!words_.is_at_end_of_line()) { row.runs.push_back(run()); }
-        words_.add(statements.rows, std::move(row));
     }
 
     /// Reads a count and a letter.
@@ -376,91 +385,131 @@ private:
     }
 
     CertificateTokens& words_;
-    Certificate& made_;
+    const Certificate& certificate_;
     RegionPlaneCounts region_plane_counts_;
-    std::size_t current_region_plane_count_ = 0; ///< How many region planes the region of the current statement has.
+    std::size_t region_planes_ = 0; ///< of the part of the current statement
 };
 
-/// Takes the first word of a line if it begins a statement.
-std::optional<StatementKind> read_statement_kind(CertificateTokens& words) {
-    using Word = std::pair<std::string_view, StatementKind>;
-    for (const auto& [word, kind] :
-        {Word("pairs", StatementKind::Pairs), Word("sum", StatementKind::Sum), Word("never", StatementKind::Never),
-            Word("away", StatementKind::Away), Word("unproved", StatementKind::Unproved)}) {
-        if (words.skip(word)) { return kind; }
-    }
-    return std::nullopt;
-}
+namespace {
 
-constexpr std::size_t largest_bytes = std::size_t{2} << 30;
-
-class CertificateParser {
-public:
-    CertificateParser(const std::filesystem::path& path, std::string_view text) : words_(path, text) {
-        made_.path = path;
-    }
-
-    Certificate read() {
-        while (words_.next_line()) {
-            if (!words_.is_at_end_of_line()) { take(); }
-        }
-        if (!has_header_) { throw_error_in(made_.path, "expected 'octant-certificate 1' first, got an empty file"); }
-        finish_structure();
-        return std::move(made_);
-    }
-
-private:
-    void take() {
-        if (!has_header_) {
-            if (!words_.skip("octant-certificate") || !words_.skip("1")) {
-                words_.refuse_next("'octant-certificate 1' first");
-            }
-            has_header_ = true;
-        } else if (const auto statement = read_statement_kind(words_)) {
-            finish_structure();
-            statements_->take(*statement);
-        } else {
-            take_structure();
-        }
-        if (!words_.is_at_end_of_line()) { words_.refuse_next("the end of the line"); }
-    }
-
-    void take_structure() {
-        if (!structure_.take()) {
-            words_.refuse_next("tolerance, about, vertex, axis, polygon, turning, list, node, pairs, "
-                               "sum, never, away or unproved");
-        }
-        if (statements_) {
-            throw_error_at(made_.path, words_.line_number(),
-                "expected pairs, sum, never, away or unproved after the first of them, got "
-                "something else");
-        }
-    }
-
-    /// Called once all nodes and lists are read: requires that they are one tree, so that statements may follow.
-    void finish_structure() {
-        if (!statements_) {
-            statements_.emplace(words_, made_, count_region_planes(made_));
-            made_.by_node.resize(made_.nodes.size());
-            made_.by_list.resize(made_.lists.size());
-        }
-    }
-
-    CertificateTokens words_;
-    Certificate made_;
-    StructureReader structure_{words_, made_};
-    std::optional<StatementReader> statements_; ///< Nothing until the structure is read.
-    bool has_header_ = false;
-};
+constexpr std::string_view header = "octant-certificate";
+constexpr std::string_view version = "2";
 
 } // namespace
 
-Certificate read_certificate(const std::filesystem::path& path) {
-    return certificate_of(read_text_file(path, largest_bytes), path);
-}
+class CertificateReader::Parser {
+public:
+    Parser(CertificateTokens words, const std::filesystem::path& path) : words_(std::move(words)) {
+        certificate_.path = path;
+        read_header();
+        while (read_structure_line()) {}
+        statements_.emplace(words_, certificate_);
+        if (kind_) { take_statement(); }
+    }
 
-Certificate certificate_of(std::string_view text, const std::filesystem::path& name) {
-    return CertificateParser(name, text).read();
-}
+    const Certificate& certificate() const { return certificate_; }
+
+    const Statement* next_of(int child) {
+        if (is_taken_) { read_statement(); }
+        if (!part_ || *part_ != child) { return nullptr; }
+        is_taken_ = true;
+        return &statement_;
+    }
+
+    void require_end() {
+        if (is_taken_) { read_statement(); }
+        if (part_) {
+            throw_error_at(certificate_.path, statement_.line,
+                fmt::format("expected statements in the order of the tree, each node's before those of its children, "
+                            "got one about {} {}",
+                    *part_ < 0 ? "list" : "node", *part_ < 0 ? ~*part_ : *part_));
+        }
+    }
+
+private:
+    bool next_line() {
+        while (words_.next_line()) {
+            if (!words_.is_at_end_of_line()) { return true; }
+        }
+        return false;
+    }
+
+    void require_end_of_line() {
+        if (!words_.is_at_end_of_line()) { words_.refuse_next("the end of the line"); }
+    }
+
+    void read_header() {
+        const std::string expected = fmt::format("'{} {}' first", header, version);
+        if (!next_line()) {
+            throw_error_in(certificate_.path, fmt::format("expected {}, got an empty file", expected));
+        }
+        if (!words_.skip(header)) { words_.refuse_next(expected); }
+        if (!words_.skip(version)) {
+            words_.refuse_next(
+                fmt::format("version {} of the format (octant draw-order --certificate writes it)", version));
+        }
+        require_end_of_line();
+    }
+
+    /// Takes the first word of a line if it begins a statement.
+    std::optional<Statement::Kind> statement_word() {
+        for (const auto& [word, kind] : statement_words) {
+            if (words_.skip(word)) { return kind; }
+        }
+        return std::nullopt;
+    }
+
+    /// Reads a line of the structure; false, with kind_ set, at the first statement, and at the end.
+    bool read_structure_line() {
+        if (!next_line()) { return false; }
+        kind_ = statement_word();
+        if (kind_) { return false; }
+        if (!structure_.take()) {
+            words_.refuse_next(fmt::format(
+                "model, tolerance, about, vertex, axis, polygon, turning, list, node, {}", expected_statement));
+        }
+        require_end_of_line();
+        return true;
+    }
+
+    void read_statement() {
+        is_taken_ = false;
+        part_.reset();
+        if (!next_line()) { return; }
+        kind_ = statement_word();
+        if (!kind_) { words_.refuse_next(fmt::format("{} after the first of them", expected_statement)); }
+        take_statement();
+    }
+
+    void take_statement() {
+        part_ = statements_->take(*kind_, statement_);
+        require_end_of_line();
+    }
+
+    CertificateTokens words_;
+    Certificate certificate_;
+    StructureReader structure_{words_, certificate_};
+    std::optional<StatementReader> statements_; ///< Nothing until the structure is read.
+    std::optional<Statement::Kind> kind_;
+    Statement statement_;
+    std::optional<int> part_; ///< what statement_ is about; nothing at the end
+    bool is_taken_ = false;   ///< statement_ was handed out
+};
+
+CertificateReader::CertificateReader(const std::filesystem::path& path)
+    : parser_(std::make_unique<Parser>(CertificateTokens(path), path)) {}
+
+CertificateReader::CertificateReader(std::string_view text, const std::filesystem::path& name)
+    : parser_(std::make_unique<Parser>(CertificateTokens(name, text), name)) {}
+
+CertificateReader::CertificateReader(CertificateReader&&) noexcept = default;
+CertificateReader& CertificateReader::operator=(CertificateReader&&) noexcept = default;
+CertificateReader::~CertificateReader() = default;
+
+const Certificate& CertificateReader::certificate() const { return parser_->certificate(); }
+
+const Statement* CertificateReader::next_of(int child) { return parser_->next_of(child); }
+
+void CertificateReader::require_end() { parser_->require_end(); }
 
 } // namespace octant::visuals::verify

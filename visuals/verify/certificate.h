@@ -5,8 +5,9 @@
 #include <cstdint>
 #include <filesystem>
 #include <limits>
-#include <map>
+#include <memory>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -62,13 +63,19 @@ struct OrderList {
     int line = 0;
 };
 
+/// A region plane, counted from the root, and its factor in a sum of planes.
+struct RegionPlaneFactor {
+    std::uint32_t plane = 0;
+    double factor = 0.0;
+};
+
 /// Factors of a sum of planes: of the earlier polygon's (or the only one's), of the later one's, of the constant 1, and
-/// of each region plane of the region, the root's first.
+/// of region planes of the region; that of others is 0.
 struct StatedFactors {
     double earlier = 0.0;
     double later = 0.0;
     double one = 0.0;
-    std::vector<double> region_planes;
+    std::vector<RegionPlaneFactor> region_planes;
 };
 
 /// Two polygons, of which one may be painted earlier and one later.
@@ -85,67 +92,69 @@ struct DeciderRun {
     std::uint32_t count = 0;
 };
 
-/// Pairs of one later polygon.
-struct PairRow {
-    std::uint32_t later = 0;
+/// A statement for the eyes of a node or a list.
+struct Statement {
+    enum class Kind {
+        Pairs, ///< how the pairs of `pair.later` with earlier polygons are decided
+        Sum,   ///< a pair is decided by factors
+        Never, ///< no eye sees both polygons of a pair, by factors
+        Away,  ///< `pair.earlier` faces away from all eyes, by factors
+        UnprovedPair,
+        UnprovedPolygon ///< `pair.earlier` is not proved to lie where it should, or to face away
+    };
+    Kind kind = Kind::Pairs;
+    PolygonPair pair;
+    StatedFactors factors;
     std::vector<DeciderRun> runs;
     int line = 0;
 };
 
-/// A pair decided by factors, or not at all.
-struct PairStatement {
-    enum class Kind { Sum, Never, Unproved };
-    Kind kind = Kind::Unproved;
-    PolygonPair pair;
-    StatedFactors factors;
-    int line = 0;
-};
-
-/// A polygon that is not painted because it faces away from all eyes.
-struct BackFacingStatement {
-    StatedFactors factors;
-    int line = 0;
-};
-
-/// The statements for the eyes of a node or a list.
-struct Statements {
-    std::vector<PairRow> rows;
-    std::vector<PairStatement> pairs;
-    std::map<std::uint32_t, BackFacingStatement> away;
-    /// Polygons that are not proved to lie where they should, or to face away, and the line.
-    std::map<std::uint32_t, int> unproved;
-};
-
-/// A certificate as read from its file. Its statements may be false, but they are well-formed: all numbers are in their
-/// ranges, and nodes and lists form a tree.
+/// A certificate without its statements, as read from its file: well-formed, all numbers in their ranges, nodes and
+/// lists a tree.
 struct Certificate {
     std::filesystem::path path;
+    std::string model;      ///< what the writer calls the model
+    std::string model_hash; ///< of the polygons of the model's file, which `octant verify` can compare
     double tolerance = 0.0; ///< Lengths up to this are taken for none.
     std::vector<Vector> vertices;
     std::vector<TurnAxis> axes;
     std::vector<CertificatePolygon> polygons;
     std::vector<OrderNode> nodes; ///< Node 0 is the root; without nodes list 0 is.
     std::vector<OrderList> lists;
-    std::vector<Statements> by_node;
-    std::vector<Statements> by_list;
-    std::size_t unproved = 0;          ///< How many lines say so.
-    std::optional<int> first_unproved; ///< The first of them.
-
-    const Statements& statements_of(int child) const {
-        return child < 0 ? by_list[static_cast<std::size_t>(~child)] : by_node[static_cast<std::size_t>(child)];
-    }
 
     int line_of(int child) const {
         return child < 0 ? lists[static_cast<std::size_t>(~child)].line : nodes[static_cast<std::size_t>(child)].line;
     }
 };
 
-/// Reads a certificate; certificate-format.md describes it. Throws Error "file:line: expected ..., got ..." for whatever is not a
-/// certificate at all: no header, unknown keywords, numbers that are missing, too many, not finite or out of range,
-/// nodes and lists that are no tree, statements about polygons, nodes or lists that do not exist.
-Certificate read_certificate(const std::filesystem::path& path);
+/// Reads a certificate: first all but the statements, then one statement at a time, so that memory does not grow with
+/// their number. certificate-format.md describes the format. All functions throw Error "file:line: expected ..., got
+/// ..." for whatever is not a certificate at all: no header, another version, unknown keywords, numbers that are
+/// missing, too many, not finite or out of range, nodes and lists that are no tree, statements about polygons, nodes or
+/// lists that do not exist, or in another order than that of the tree.
+class CertificateReader {
+public:
+    explicit CertificateReader(const std::filesystem::path& path);
+    /// Of the text of a file, which must outlive the reader; `name` is what errors call it.
+    CertificateReader(std::string_view text, const std::filesystem::path& name);
+    CertificateReader(const CertificateReader&) = delete;
+    CertificateReader& operator=(const CertificateReader&) = delete;
+    CertificateReader(CertificateReader&&) noexcept;
+    CertificateReader& operator=(CertificateReader&&) noexcept;
+    ~CertificateReader();
 
-/// The same of the text of a file; `name` is what errors call it.
-Certificate certificate_of(std::string_view text, const std::filesystem::path& name);
+    const Certificate& certificate() const;
+
+    /// Reads the next statement if it is about this node or list; else null. Valid until the next call. Parts must be
+    /// asked for in the order of the tree: a node before its children, and these in the order of its line.
+    const Statement* next_of(int child);
+
+    /// Throws Error if there is a statement that was not read.
+    void require_end();
+
+private:
+    class Parser;
+    std::unique_ptr<Parser> parser_;
+};
 
 } // namespace octant::visuals::verify

@@ -13,8 +13,10 @@
 #include <cstdint>
 #include <fmt/format.h>
 #include <functional>
+#include <iterator>
 #include <memory>
 #include <optional>
+#include <set>
 #include <span>
 #include <unordered_map>
 #include <utility>
@@ -194,19 +196,15 @@ public:
         }
     }
 
-    /// The statement for the eyes before all region planes; Kind::Unproved needs no check.
-    void check(const PairStatement& statement, const RegionPlanes& region_planes) const {
+    /// The statement, a sum or never, for the eyes before all region planes.
+    void check(const Statement& statement, const RegionPlanes& region_planes) const {
         const Sum sum{statement.pair, pose_of(statement.pair), statement.factors, region_planes, statement.line};
-        if (statement.kind == PairStatement::Kind::Sum) {
-            check_separates(sum);
-        } else if (statement.kind == PairStatement::Kind::Never) {
-            check_never(sum);
-        }
+        statement.kind == Statement::Kind::Sum ? check_separates(sum) : check_never(sum);
     }
 
     /// That a polygon faces away from every eye before all region planes.
-    void check_away(
-        std::uint32_t polygon, const BackFacingStatement& statement, const RegionPlanes& region_planes) const {
+    void check_away(const Statement& statement, const RegionPlanes& region_planes) const {
+        const std::uint32_t polygon = statement.pair.earlier;
         check_never({{polygon, polygon}, PartAngle::Turning, statement.factors, region_planes, statement.line});
     }
 
@@ -245,8 +243,7 @@ private:
         add_front(sum.factors.earlier, sum.pair.earlier);
         add_front(sum.factors.later, sum.pair.later);
         const auto& axis = certificate_.polygons[sum.pair.earlier].axis;
-        for (std::size_t i = 0; i < sum.region_planes.size(); ++i) {
-            const double factor = sum.factors.region_planes[i];
+        for (const auto& [i, factor] : sum.factors.region_planes) {
             if (factor > 0.0 && sum.pose == PartAngle::Standing && axis &&
                 !is_across(sum.region_planes[i], certificate_.axes[*axis])) {
                 throw InvalidCertificate{
@@ -292,7 +289,7 @@ private:
 /// The earlier polygons of which a row of pairs speaks, by the later one; nothing where there should be no such row.
 using EarlierOf = std::function<std::optional<std::span<const std::uint32_t>>(std::uint32_t later)>;
 
-void check_row(const PairCheck& check, const PairRow& row, std::span<const std::uint32_t> earlier,
+void check_row(const PairCheck& check, const Statement& row, std::span<const std::uint32_t> earlier,
     ProvedPairs& proved_pairs, StatementCounts& counts) {
     std::uint64_t all = 0;
     for (const DeciderRun& run : row.runs) { all += run.count; }
@@ -303,7 +300,7 @@ void check_row(const PairCheck& check, const PairRow& row, std::span<const std::
     std::size_t at = 0;
     for (const DeciderRun& run : row.runs) {
         for (std::uint32_t i = 0; i < run.count; ++i) {
-            const PolygonPair pair{earlier[at++], row.later};
+            const PolygonPair pair{earlier[at++], row.pair.later};
             if (run.by == DeciderRun::By::Elsewhere) { continue; }
             run.by == DeciderRun::By::Earlier ? check.check_earlier(pair, row.line) : check.check_later(pair, row.line);
             proved_pairs.add(pair);
@@ -312,26 +309,11 @@ void check_row(const PairCheck& check, const PairRow& row, std::span<const std::
     }
 }
 
-/// Checks all statements about pairs for the eyes before some region planes, and adds the pairs to the proved ones.
-/// Throws InvalidCertificate.
-void check_statements(const PairCheck& check, const Statements& statements, const RegionPlanes& region_planes,
-    const EarlierOf& earlier_of, ProvedPairs& proved_pairs, StatementCounts& counts) {
-    for (const PairRow& row : statements.rows) {
-        const auto earlier = earlier_of(row.later);
-        if (!earlier) {
-            throw InvalidCertificate{
-                row.line, fmt::format("expected pairs of a polygon that is painted over others there, got polygon {}",
-                              row.later)};
-        }
-        check_row(check, row, *earlier, proved_pairs, counts);
-    }
-    for (const PairStatement& statement : statements.pairs) {
-        check.check(statement, region_planes);
-        proved_pairs.add(statement.pair);
-        counts.by_sums += statement.kind == PairStatement::Kind::Sum ? 1 : 0;
-        counts.never_both_visible += statement.kind == PairStatement::Kind::Never ? 1 : 0;
-    }
-}
+/// What the statements of a node or list say of single polygons, ascending.
+struct PolygonStatements {
+    std::set<std::uint32_t> away; ///< proved to face away
+    std::set<std::uint32_t> unproved;
+};
 
 struct Box {
     Vector least{};
@@ -408,31 +390,26 @@ std::unordered_map<std::uint32_t, std::size_t> places_of(std::span<const std::ui
 /// Throws InvalidCertificate. Keeps references.
 class PaintedCheck {
 public:
-    PaintedCheck(const Certificate& certificate, const ExactSides& sides, const PairCheck& pair_check)
-        : certificate_(certificate), pair_check_(pair_check),
-          coplanar_layer_pairs_(coplanar_layer_pairs(certificate, sides)), mark_(certificate.polygons.size(), 0) {}
+    PaintedCheck(const Certificate& certificate, const ExactSides& sides)
+        : coplanar_layer_pairs_(coplanar_layer_pairs(certificate, sides)), mark_(certificate.polygons.size(), 0) {}
 
-    /// That in a child nothing is painted but what is expected, and that what is expected and not painted faces away
-    /// from all eyes before the region planes. Returns how many do.
-    std::uint64_t require_painted(int child, std::span<const std::uint32_t> expected,
-        std::span<const std::uint32_t> painted, const RegionPlanes& region_planes) {
+    /// That in the part of a line nothing is painted but what is expected, and that what is expected and not painted is
+    /// stated to face away. Returns how many are.
+    std::uint64_t require_painted(int line, std::span<const std::uint32_t> expected,
+        std::span<const std::uint32_t> painted, const PolygonStatements& stated) {
         enum : char { None, Expected, Painted };
 
-        const int line = certificate_.line_of(child);
-        const Statements& statements = certificate_.statements_of(child);
         for (const std::uint32_t polygon : expected) { mark_[polygon] = Expected; }
         for (const std::uint32_t polygon : painted) {
             if (std::exchange(mark_[polygon], Painted) != Expected) { fail_at_repeat(polygon, line); }
         }
         std::uint64_t unlisted = 0;
         for (const std::uint32_t polygon : expected) {
-            if (std::exchange(mark_[polygon], None) == Painted || statements.unproved.contains(polygon)) { continue; }
-            const auto away = statements.away.find(polygon);
-            if (away == statements.away.end()) {
+            if (std::exchange(mark_[polygon], None) == Painted || stated.unproved.contains(polygon)) { continue; }
+            if (!stated.away.contains(polygon)) {
                 throw InvalidCertificate{
                     line, fmt::format("expected polygon {} painted or proved to face away, got neither", polygon)};
             }
-            pair_check_.check_away(polygon, away->second, region_planes);
             ++unlisted;
         }
         return unlisted;
@@ -480,8 +457,6 @@ public:
     }
 
 private:
-    const Certificate& certificate_;
-    const PairCheck& pair_check_;
     std::vector<PolygonPair> coplanar_layer_pairs_;
     std::vector<char> mark_; ///< One for each polygon; all are 0 between checks.
 };
@@ -492,17 +467,16 @@ using Polygons = std::vector<std::uint32_t>;
 
 class Verifier {
 public:
-    Verifier(const Certificate& certificate, const std::function<void(std::size_t, std::size_t)>& progress)
-        : certificate_(certificate), progress_(progress), sides_(certificate), pair_check_(certificate, sides_),
-          painted_check_(certificate, sides_, pair_check_), contents_(certificate) {
+    Verifier(CertificateReader& reader, const std::function<void(std::size_t, std::size_t)>& progress)
+        : reader_(reader), certificate_(reader.certificate()), progress_(progress), sides_(certificate_),
+          pair_check_(certificate_, sides_), painted_check_(certificate_, sides_), contents_(certificate_) {
         const Rational most = sides_.size() * Rational(largest_tolerance_sizes);
-        if (Rational(certificate.tolerance) > most) {
-            throw_error_in(certificate.path,
+        if (Rational(certificate_.tolerance) > most) {
+            throw_error_in(certificate_.path,
                 fmt::format("expected a tolerance of at most {:g} of the model's size, {:g}, got {:g}",
-                    largest_tolerance_sizes, most.get_d(), certificate.tolerance));
+                    largest_tolerance_sizes, most.get_d(), certificate_.tolerance));
         }
-        result_.tolerance_sizes = Rational(certificate.tolerance / sides_.size()).get_d();
-        result_.unproved = certificate.unproved;
+        result_.tolerance_sizes = Rational(certificate_.tolerance / sides_.size()).get_d();
     }
 
     VerificationResult verified() {
@@ -552,12 +526,20 @@ private:
             task.child < 0 ? check_list(task) : check_node(task, to_do);
             if (progress_) { progress_(done + 1, parts); }
         }
+        reader_.require_end();
     }
 
     void check_list(const Task& task) {
         const OrderList& list = certificate_.lists[static_cast<std::size_t>(~task.child)];
         const std::span<const std::uint32_t> polygons = list.polygons;
-        result_.unlisted += painted_check_.require_painted(task.child, *task.expected, polygons, task.region_planes);
+        std::unordered_map<std::uint32_t, std::size_t> place;
+        for (std::size_t i = 0; i < polygons.size(); ++i) { place.emplace(polygons[i], i); }
+        ProvedPairs proved_pairs = proved_pairs_at(task);
+        const PolygonStatements stated = check(task, proved_pairs, [&](std::uint32_t later) {
+            const auto found = place.find(later);
+            return found == place.end() ? std::nullopt : std::optional(polygons.first(found->second));
+        });
+        result_.unlisted += painted_check_.require_painted(list.line, *task.expected, polygons, stated);
         painted_check_.require_layer_order(polygons, list.line);
         const std::uint64_t pairs = pairs_among(polygons.size());
         result_.pairs += pairs;
@@ -565,13 +547,6 @@ private:
             result_.by_node_planes += pairs;
             return;
         }
-        std::unordered_map<std::uint32_t, std::size_t> place;
-        for (std::size_t i = 0; i < polygons.size(); ++i) { place.emplace(polygons[i], i); }
-        ProvedPairs proved_pairs = proved_pairs_at(task);
-        check(task, proved_pairs, [&](std::uint32_t later) {
-            const auto found = place.find(later);
-            return found == place.end() ? std::nullopt : std::optional(polygons.first(found->second));
-        });
         PolygonSet painted(certificate_.polygons.size());
         for (std::size_t i = 0; i < polygons.size(); ++i) {
             require_decided(proved_pairs, painted, polygons.first(i), polygons[i], list.line);
@@ -590,13 +565,18 @@ private:
         const Polygons coplanar_front = contents_.of(node.coplanar_front);
         const Polygons coplanar_back = contents_.of(node.coplanar_back);
         painted_check_.require_disjoint(node.line, {front, back, coplanar_front, coplanar_back});
-        result_.unlisted +=
-            painted_check_.require_painted(task.child, *task.expected, contents_.of(task.child), task.region_planes);
         const auto known = known_below(task);
-        if (node.kind == OrderNode::Kind::Sequence) {
-            check_sequence(task, front, back);
+        ProvedPairs proved_pairs = proved_pairs_at(task);
+        const bool is_sequence = node.kind == OrderNode::Kind::Sequence;
+        const PolygonStatements stated = check(task, proved_pairs, [&](std::uint32_t later) {
+            return is_sequence && std::ranges::binary_search(back, later) ? std::optional(std::span(front))
+                                                                          : std::nullopt;
+        });
+        result_.unlisted += painted_check_.require_painted(node.line, *task.expected, contents_.of(task.child), stated);
+        if (is_sequence) {
+            check_sequence(proved_pairs, front, back, node.line);
         } else {
-            check_parting(node, certificate_.statements_of(task.child), {front, back}, {coplanar_front, coplanar_back});
+            check_parting(node, stated, {front, back}, {coplanar_front, coplanar_back});
         }
         const auto add = [&](int child, const Polygons& polygons, bool in_plane) {
             if (child != OrderNode::no_child) {
@@ -604,18 +584,29 @@ private:
                 to_do.push_back({child, task.region_planes, expected, known, false, in_plane});
             }
         };
-        add(node.front, front, false);
-        add(node.back, back, false);
-        add(node.coplanar_front, coplanar_front, true);
+        // The last one that is added comes first.
         add(node.coplanar_back, coplanar_back, true);
+        add(node.coplanar_front, coplanar_front, true);
+        add(node.back, back, false);
+        add(node.front, front, false);
     }
 
-    /// The polygons expected of a view split are expected on both of its sides.
+    /// The polygons expected of a view split are expected on both of its sides, but for those that face away from all
+    /// of its eyes.
     void check_choice(const Task& task, const OrderNode& node, std::vector<Task>& to_do) {
         const Polygons below = contents_.of(task.child);
         const auto proved_pairs = std::make_shared<ProvedPairs>(proved_pairs_at(task));
-        check(task, *proved_pairs, [&](std::uint32_t) { return std::optional(std::span(below)); });
-        for (const bool in_front : {true, false}) {
+        const PolygonStatements stated =
+            check(task, *proved_pairs, [&](std::uint32_t) { return std::optional(std::span(below)); });
+        auto expected = task.expected;
+        if (!stated.away.empty()) {
+            auto rest = std::make_shared<Polygons>();
+            std::ranges::copy_if(*task.expected, std::back_inserter(*rest),
+                [&](std::uint32_t polygon) { return !stated.away.contains(polygon); });
+            result_.unlisted += task.expected->size() - rest->size();
+            expected = std::move(rest);
+        }
+        for (const bool in_front : {false, true}) { // the front comes first
             RegionPlanes region_planes = task.region_planes;
             region_planes.push_back(in_front ? node.plane : reversed(node.plane));
             const int child = in_front ? node.front : node.back;
@@ -623,17 +614,12 @@ private:
                 result_.covers_every_eye = false;
                 continue;
             }
-            to_do.push_back({child, std::move(region_planes), task.expected, proved_pairs, true, false});
+            to_do.push_back({child, std::move(region_planes), expected, proved_pairs, true, false});
         }
     }
 
     /// That nothing of the first part hides anything of the second.
-    void check_sequence(const Task& task, const Polygons& front, const Polygons& back) {
-        ProvedPairs proved_pairs = proved_pairs_at(task);
-        const int line = certificate_.line_of(task.child);
-        check(task, proved_pairs, [&](std::uint32_t later) {
-            return std::ranges::binary_search(back, later) ? std::optional(std::span(front)) : std::nullopt;
-        });
+    void check_sequence(const ProvedPairs& proved_pairs, const Polygons& front, const Polygons& back, int line) {
         painted_check_.require_layer_order(front, back, line);
         PolygonSet painted(certificate_.polygons.size());
         for (const std::uint32_t polygon : front) { painted.add(polygon); }
@@ -641,10 +627,51 @@ private:
         result_.pairs += front.size() * back.size();
     }
 
-    /// Checks the statements about pairs.
-    void check(const Task& task, ProvedPairs& proved_pairs, const EarlierOf& earlier_of) {
-        check_statements(pair_check_, certificate_.statements_of(task.child), task.region_planes, earlier_of,
-            proved_pairs, result_.statements);
+    /// Reads and checks all statements of a part for the eyes before its region planes, and adds the pairs to the
+    /// proved ones. Throws InvalidCertificate.
+    PolygonStatements check(const Task& task, ProvedPairs& proved_pairs, const EarlierOf& earlier_of) {
+        PolygonStatements stated;
+        while (const Statement* statement = reader_.next_of(task.child)) {
+            check(*statement, task, proved_pairs, earlier_of, stated);
+        }
+        return stated;
+    }
+
+    void check(const Statement& statement, const Task& task, ProvedPairs& proved_pairs, const EarlierOf& earlier_of,
+        PolygonStatements& stated) {
+        switch (statement.kind) {
+        case Statement::Kind::Pairs: {
+            const auto earlier = earlier_of(statement.pair.later);
+            if (!earlier) {
+                throw InvalidCertificate{statement.line,
+                    fmt::format("expected pairs of a polygon that is painted over others there, got polygon {}",
+                        statement.pair.later)};
+            }
+            check_row(pair_check_, statement, *earlier, proved_pairs, result_.statements);
+            return;
+        }
+        case Statement::Kind::Sum:
+        case Statement::Kind::Never:
+            pair_check_.check(statement, task.region_planes);
+            proved_pairs.add(statement.pair);
+            ++(statement.kind == Statement::Kind::Sum ? result_.statements.by_sums
+                                                      : result_.statements.never_both_visible);
+            return;
+        case Statement::Kind::Away:
+            pair_check_.check_away(statement, task.region_planes);
+            stated.away.insert(statement.pair.earlier);
+            return;
+        case Statement::Kind::UnprovedPair:
+        case Statement::Kind::UnprovedPolygon:
+            ++result_.unproved;
+            result_.first_unproved = result_.first_unproved.value_or(statement.line);
+            if (statement.kind == Statement::Kind::UnprovedPair) {
+                proved_pairs.add(statement.pair); // that it is not is counted
+            } else {
+                stated.unproved.insert(statement.pair.earlier);
+            }
+            return;
+        }
     }
 
     static std::uint64_t pairs_among(std::size_t polygons) { return polygons < 2 ? 0 : polygons * (polygons - 1) / 2; }
@@ -677,11 +704,11 @@ private:
 
     /// Requires that the plane of a polygon split separates its parts, and that the polygons in it face the right way.
     void check_parting(
-        const OrderNode& node, const Statements& statements, const TwoParts& sides, const TwoParts& coplanar) {
+        const OrderNode& node, const PolygonStatements& stated, const TwoParts& sides, const TwoParts& coplanar) {
         const auto& [front, back] = sides;
         const auto& [coplanar_front, coplanar_back] = coplanar;
         const auto expect = [&](std::uint32_t polygon, bool good, const char* expected) {
-            if (!good && !statements.unproved.contains(polygon)) {
+            if (!good && !stated.unproved.contains(polygon)) {
                 throw InvalidCertificate{node.line,
                     fmt::format("expected polygon {} {} the plane, got a corner elsewhere", polygon, expected)};
             }
@@ -717,6 +744,7 @@ private:
         }
     }
 
+    CertificateReader& reader_;
     const Certificate& certificate_;
     const std::function<void(std::size_t, std::size_t)>& progress_;
     ExactSides sides_;
@@ -728,9 +756,8 @@ private:
 
 } // namespace
 
-VerificationResult verify(
-    const Certificate& certificate, const std::function<void(std::size_t, std::size_t)>& progress) {
-    return Verifier(certificate, progress).verified();
+VerificationResult verify(CertificateReader reader, const std::function<void(std::size_t, std::size_t)>& progress) {
+    return Verifier(reader, progress).verified();
 }
 
 } // namespace octant::visuals::verify

@@ -29,19 +29,21 @@ struct VerificationResult {
     std::uint64_t pairs = 0;                   ///< Polygons that some eyes paint one before the other.
     std::uint64_t by_node_planes = 0;          ///< Of these, decided by a plane that parts many from many.
     StatementCounts statements;
-    std::uint64_t unlisted = 0;   ///< Polygons that face away from all eyes of a list or node.
-    std::uint64_t unproved = 0;   ///< Claims that the file itself says are not proved.
-    bool covers_every_eye = true; ///< No view split leaves the eyes on one side without statements.
-    double tolerance_sizes = 0.0; ///< The tolerance, in longest sides of the model's bounding box.
+    std::uint64_t unlisted = 0;        ///< Polygons that face away from all eyes of a list or node.
+    std::uint64_t unproved = 0;        ///< Claims that the file itself says are not proved.
+    std::optional<int> first_unproved; ///< The line of the first of them.
+    bool covers_every_eye = true;      ///< No view split leaves the eyes on one side without statements.
+    double tolerance_sizes = 0.0;      ///< The tolerance, in longest sides of the model's bounding box.
 
     bool proved() const { return !failure && unproved == 0; }
 };
 
-/// Proves without rounding that a painting order is right for every eye (certificate-format.md says what that means), or returns
-/// the first false statement. `progress(done, all)` counts nodes and lists.
+/// Proves without rounding that a painting order is right for every eye (certificate-format.md says what that means),
+/// or returns the first false statement. Reads the statements from `reader`, from which none was read before.
+/// `progress(done, all)` counts nodes and lists.
 ///
-/// Throws Error for a tolerance of more than 1e-6 of the model's size: it would prove nothing.
-VerificationResult verify(
-    const Certificate& certificate, const std::function<void(std::size_t, std::size_t)>& progress = {});
+/// Throws Error for a tolerance of more than 1e-6 of the model's size, which would prove nothing, and for statements
+/// that are no certificate.
+VerificationResult verify(CertificateReader reader, const std::function<void(std::size_t, std::size_t)>& progress = {});
 
 } // namespace octant::visuals::verify

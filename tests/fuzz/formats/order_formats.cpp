@@ -21,7 +21,7 @@ std::vector<std::string> seeds() {
     std::vector<std::string> all;
     for (const double search_s : {20.0, 0.0}) {
         const auto ordered = visuals::draworder::ordered(small_model(), {.seconds = search_s});
-        all.push_back(visuals::certificate::order_certificate(ordered.model, ordered.order, {}).text);
+        all.push_back(visuals::certificate::order_certificate(ordered.model, ordered.order, {}, {"model", "0"}).text);
     }
     return all;
 }
@@ -29,7 +29,7 @@ std::vector<std::string> seeds() {
 const Registered target({
     .name = "certificate",
     .file = "input.certificate",
-    .use = [](const auto& file) { visuals::verify::verify(visuals::verify::read_certificate(file)); },
+    .use = [](const auto& file) { visuals::verify::verify(visuals::verify::CertificateReader(file)); },
     .seeds = seeds,
     .words = {"pair ", "node ", "list ", "away ", "unproved ", "axis ", "0x1p-30", "1/3"},
 });

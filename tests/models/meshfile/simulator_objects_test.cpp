@@ -99,8 +99,8 @@ TEST_CASE("a surface of YSFlight is turned into a right-handed one, with colours
     CHECK(mesh.materials[mesh.triangle_materials[1]].colour == glm::vec3(0.0F, 1.0F, 0.0F));
     CHECK(axes_of_format("one.srf")->text() == "left,up,forward");
     const MeshParts parts = read_parts(file_with("one.srf", srf), {});
-    CHECK(parts.clear.mesh.triangles.size() == 1);
-    CHECK(parts.clear.opacity == Approx(0.6));
+    REQUIRE(parts.clear.triangles.size() == 1);
+    CHECK(parts.clear.materials[parts.clear.triangle_materials[0]].opacity == Approx(0.6));
 }
 
 TEST_CASE("parts of a YSFlight model stand in their first state, hidden ones and flames are left out, rotors turn") {
@@ -115,7 +115,7 @@ TEST_CASE("parts of a YSFlight model stand in their first state, hidden ones and
     CHECK(bounds_of(mesh).min_m.z > -3.0);
     const RotatingModel model = read_rotating_model(file, {});
     CHECK(model.body.triangles.size() == 1);
-    CHECK(model.clear.mesh.triangles.size() == 1);
+    CHECK(model.clear.triangles.size() == 1);
     REQUIRE(model.parts.size() == 2);
     const RotatingPart& shown_later = model.parts[0];
     CHECK(shown_later.about.turns_per_s == 0.0);

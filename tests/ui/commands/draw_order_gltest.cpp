@@ -132,6 +132,52 @@ TEST_CASE("a certificate is checked by octant-verify, under its old name too, an
     CHECK(run_octant({"verify"}).exit_code == 2);
 }
 
+TEST_CASE("a certificate is bound to its model: another one is refused in one line") {
+    const std::string proof = order_file("bound.txt");
+    CHECK(draw_order({"concave", "--certificate", proof, "--quiet"}).exit_code == 0);
+    CHECK(run_octant({"verify", proof, "concave"}).exit_code == 0);
+    const auto other = run_octant({"verify", proof, "f15"});
+    CHECK(other.exit_code == 2);
+    CHECK(other.out.empty());
+    CHECK(tests::lines_in(other.err) == 1);
+    CHECK(other.err.find("expected a certificate of f15, whose polygons have the hash") != std::string::npos);
+    write_file(order_file("old.txt"), "octant-certificate 1\ntolerance 1\n");
+    const auto old = run_octant({"verify", order_file("old.txt")});
+    CHECK(old.exit_code == 2);
+    CHECK(old.err.find("old.txt:1: expected version 2 of the format") != std::string::npos);
+}
+
+TEST_CASE("models of other formats than OBJ have proved orders, glass included") {
+    const std::string folder = OCTANT_SOURCE_DIR "/tests/data/aircraft/";
+    for (const std::string name : {"glass/canfirst.ac", "glass/glass.obj", "nose+y.glb", "flat.ac"}) {
+        INFO(name);
+        const std::string proof = order_file("format.txt");
+        const auto run = draw_order({folder + name, "--certificate", proof, "--rays", "4000", "--json", "--quiet"});
+        CHECK(run.exit_code == 0);
+        CHECK(order_figures(run)["certificate_unproved"] == 0);
+        CHECK(order_figures(run)["rays_wrong"] == 0);
+        CHECK(run_octant({"verify", proof, folder + name}).exit_code == 0);
+    }
+}
+
+TEST_CASE("polygons that intersect themselves are cut with a note, and ordered") {
+    write_file(order_file("bow.obj"), "v 0 0 0\nv 2 2 0\nv 2 0 0\nv 0 2 0\nv 0 0 1\nv 1 0 1\nv 0 1 1.5\nv 1 1 0\n"
+                                      "f 1 2 3 4\nf 5 6 8 7\n");
+    const std::string proof = order_file("bow.txt");
+    const auto run = draw_order({order_file("bow.obj"), "--certificate", proof});
+    CHECK(run.exit_code == 0);
+    CHECK(run.err.find("polygon of 4 corners") != std::string::npos);
+    CHECK(run_octant({"verify", proof, order_file("bow.obj")}).exit_code == 0);
+}
+
+TEST_CASE("the certificate of a soup of triangles stays small") {
+    const std::string soup = OCTANT_SOURCE_DIR "/tests/data/aircraft/orders/s7-x-soup60.obj";
+    const std::string proof = order_file("soup.txt");
+    CHECK(draw_order({soup, "--certificate", proof, "--quiet"}).exit_code == 0);
+    CHECK(std::filesystem::file_size(proof) < 100U * 5378U); // so many pairs overlap from some eye
+    CHECK(run_octant({"verify", proof}).exit_code == 0);
+}
+
 TEST_CASE("a program that octant starts is looked for beside it and in PATH") {
     const auto folder = tests::empty_folder("other-programs");
     const std::string octant = (folder / "octant").string();
@@ -162,8 +208,7 @@ TEST_CASE("rays alone find the file order of a missing cell") {
 TEST_CASE("draw-order refuses wrong input in one line with exit code 2") {
     tests::check_refusals("draw-order",
         {{"", "model"},
-            {"f16",
-                "model: expected f15, 500md, f15-detailed, 500md-detailed, concave, torus or an OBJ file, got 'f16'"},
+            {"f16", "model: expected f15, 500md, f15-detailed, 500md-detailed, concave, torus or a file, got 'f16'"},
             {"/nowhere/a.obj", "/nowhere/a.obj: expected a file, found none"}});
     write_file(order_file("empty.obj"), "");
     tests::check_refusals("draw-order",

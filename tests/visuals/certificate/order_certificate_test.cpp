@@ -1,14 +1,22 @@
+#include "models/planar/planar_model.h"
+#include "models/polygons/file_axes.h"
 #include "models/polygons/obj_reader.h"
 #include "sim/base/output_file.h"
 #include "sim/base/text_file.h"
 #include "tests/scratch.h"
 #include "visuals/certificate/order_certificate.h"
+#include "visuals/draworder/occlusion.h"
+#include "visuals/draworder/occlusion_graph.h"
 #include "visuals/draworder/ordered_model.h"
+#include "visuals/draworder/view_cell.h"
+#include "visuals/draworder/view_region.h"
 #include "visuals/verify/certificate.h"
 #include "visuals/verify/verify.h"
 
 #include <catch2/catch.hpp>
 
+#include <cstddef>
+#include <cstdio>
 #include <fmt/format.h>
 #include <string>
 #include <string_view>
@@ -27,13 +35,13 @@ models::polygons::PolygonModel read(const std::string& file) {
 /// Of the exact order, found by a search over eye space or, without one, by splitting polygons.
 OrderCertificate certificate_of(const std::string& file, double search_s = 20.0) {
     const auto ordered = visuals::draworder::ordered(read(file), {.seconds = search_s});
-    return visuals::certificate::order_certificate(ordered.model, ordered.order, {});
+    return visuals::certificate::order_certificate(ordered.model, ordered.order, {}, {"model", "0123456789abcdef"});
 }
 
 VerificationResult verdict_of(const std::string& text) {
     const auto file = tests::scratch_folder() / "certificate.txt";
     write_file(file, text);
-    return visuals::verify::verify(visuals::verify::read_certificate(file));
+    return visuals::verify::verify(visuals::verify::CertificateReader(file));
 }
 
 void check_proved(const std::string& file) {
@@ -100,6 +108,56 @@ TEST_CASE("sides that are parallel but for the last digits of a file are proved,
 
 TEST_CASE("the same order gives the same certificate") {
     CHECK(certificate_of("models/concave.obj").text == certificate_of("models/concave.obj").text);
+}
+
+namespace {
+
+/// Pairs of polygons of which one hides part of the other from some eye.
+std::size_t overlapping_pairs(const models::polygons::PolygonModel& model) {
+    const models::planar::PlanarModel planar = models::planar::planar_model(model);
+    const auto faces = visuals::draworder::model_faces(planar.model, glm::dvec3(0.0));
+    visuals::draworder::OcclusionGraphBuilder builder(faces);
+    const auto graph = builder.all(visuals::draworder::ViewRegion::all_space());
+    std::size_t pairs = 0;
+    for (std::size_t a = 0; a < graph.count(); ++a) {
+        for (std::size_t b = 0; b < a; ++b) { pairs += graph.occludes(a, b) || graph.occludes(b, a) ? 1U : 0U; }
+    }
+    return pairs;
+}
+
+} // namespace
+
+TEST_CASE("a certificate has at most 100 bytes for each pair of polygons that overlap from some eye") {
+    const std::string name = GENERATE("models/concave.obj", "models/f15.obj", "models/500md.obj",
+        "models/f15-detailed.obj", "models/500md-detailed.obj", "tests/data/aircraft/orders/s7-x-soup60.obj");
+    const std::size_t pairs = overlapping_pairs(read(name));
+    const OrderCertificate certificate = certificate_of(name);
+    const double bytes = static_cast<double>(certificate.text.size()) / static_cast<double>(pairs);
+    std::fputs(fmt::format("{}: {} bytes, {} overlapping pairs, {:.1f} bytes a pair\n", name, certificate.text.size(),
+                   pairs, bytes)
+                   .c_str(),
+        stdout);
+    CHECK(bytes <= 100.0);
+    CHECK(certificate.unproved == 0);
+    CHECK(verdict_of(certificate.text).proved());
+}
+
+TEST_CASE("the hash of a model is that of its polygons, not of names and axes") {
+    using visuals::certificate::model_hash;
+    const models::polygons::PolygonModel f15 = read("models/f15.obj");
+    const std::string hash = model_hash(f15, {});
+    models::polygons::PolygonModel other = f15;
+    other.name = "another name";
+    for (models::Material& material : other.materials) { material.colour = glm::vec3(0.5F); }
+    CHECK(model_hash(other, {}) == hash);
+    const auto axes = models::polygons::FileAxes::from_text("back,right,up");
+    const auto turned = models::polygons::read_obj(OCTANT_SOURCE_DIR "/models/f15.obj", axes);
+    CHECK(model_hash(turned, axes) == hash);
+    other.vertices_m[other.corner_vertices[0]].x += 1e-9;
+    CHECK(model_hash(other, {}) != hash);
+    models::polygons::PolygonModel less = f15;
+    less.polygons.pop_back();
+    CHECK(model_hash(less, {}) != hash);
 }
 
 TEST_CASE("a certificate in which one thing was changed is refused") {

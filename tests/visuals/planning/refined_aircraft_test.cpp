@@ -257,10 +257,13 @@ TEST_CASE("far away, where its polygons are good enough, a refined aircraft is d
 TEST_CASE("what is clear of refined aircraft is drawn after all of them, the farthest first by depth") {
     planning::AircraftModel model = convex_aircraft(box_model({4.0, 4.0, 1.0}));
     planning::add_progressive(model, hierarchy(), 0.2);
-    models::TriangleMesh pane;
+    models::polygons::PolygonModel pane;
     pane.vertices_m = {{0, 0, -2}, {1, 0, -2}, {0, 1, -2}};
-    pane.triangles = {{0, 2, 1}};
-    planning::add_transparent(model, pane, 0.4F);
+    pane.corner_vertices = {0, 2, 1};
+    pane.polygons = {{0, 3, 0, 0}};
+    pane.materials = {{.name = "glass", .opacity = 0.4F}};
+    pane.parts = {"glass"};
+    planning::add_glass(model, pane, visuals::draworder::file_order(pane), std::vector<glm::vec3>(3));
     planning::Scene scene = small_scene({std::move(model)}, {0, 0});
     const auto hidden = GENERATE(scene::HiddenSurface::Octant, scene::HiddenSurface::DepthBuffer);
     const std::size_t nearest = GENERATE(0U, 1U);
