@@ -151,6 +151,10 @@ void finish_loading(const ui::settings::RunSettings& settings, const planning::S
 
 std::shared_ptr<Loaded> load(const ui::settings::RunSettings& settings, const Loaded* shared,
     const std::function<void(std::string_view)>& on_note) {
+    if (settings.path.aircraft.empty() && settings.path.name != ui::settings::live_path) {
+        throw Error(fmt::format(
+            "path: expected aircraft, of which the first flies it, got none beside {}", printable(settings.path.name)));
+    }
     auto loaded = std::make_shared<Loaded>();
     loaded->settings = world_settings(settings);
     loaded->world = ui::world::load_world(

@@ -144,6 +144,14 @@ class Settings(unittest.TestCase):
         look = octant.attitudes(pitch_deg=-30)
         self.assertFalse(np.array_equal(bare.render(camera, eye, look).rgb, rich.render(camera, eye, look).rgb))
 
+    def test_a_path_without_aircraft_is_refused(self):
+        for settings in ({"path": "turn"}, {"path": "straight", "aircraft": []}):
+            with self.assertRaises(octant.Error) as raised:
+                octant.World(terrain="none", **settings)
+            self.assertIn("path: expected aircraft, of which the first flies it, got none", str(raised.exception))
+        with self.assertRaises(octant.Error):
+            octant.World(terrain="none").with_settings(path="turn")
+
     def test_wrong_settings_are_refused(self):
         for wrong in (
             {"colour": 1}, {"visibility": "far"}, {"triangles": 1}, {"near_detail": 3}, {"terrain": "nowhere"},
