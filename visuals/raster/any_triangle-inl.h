@@ -409,16 +409,26 @@ HWY_INLINE void join(const TransparentPixel& neighbour, TransparentPixel& transp
 }
 
 /// Records what is seen of a transparent triangle in a pixel, to be blended later over those of its group that were
-/// recorded before.
-HWY_INLINE void record(const TransparentPixel& transparent, TileBuffer& buffer) {
+/// recorded before. Of two surfaces beside one another in a pixel, of which one comes from a nearer group, the share is
+/// that of both together, too.
+HWY_INLINE void record(const TransparentPixel& transparent, TileBuffer& buffer, bool is_surface) {
     if (transparent.share == 0) { return; }
     std::uint32_t& last = buffer.last_transparent[transparent.pixel];
-    if (last != 0 && (buffer.transparent_pixels[last - 1].mask & transparent.mask) == 0) {
-        join(transparent, buffer.transparent_pixels[last - 1]);
-    } else {
-        buffer.transparent_pixels.push_back(transparent);
-        last = static_cast<std::uint32_t>(buffer.transparent_pixels.size());
+    std::uint32_t& only = buffer.only_transparent[transparent.pixel];
+    const bool is_alone = last == 0 && only != 0 && only != TileBuffer::several && is_surface;
+    const std::uint32_t beside = is_alone ? only : last;
+    if (beside != 0 && (buffer.transparent_pixels[beside - 1].mask & transparent.mask) == 0) {
+        join(transparent, buffer.transparent_pixels[beside - 1]);
+        return;
     }
+    buffer.transparent_pixels.push_back(transparent);
+    last = static_cast<std::uint32_t>(buffer.transparent_pixels.size());
+    only = only == 0 && is_surface ? last : TileBuffer::several;
+}
+
+HWY_INLINE void begin_record(TileBuffer& buffer) {
+    buffer.last_transparent.resize(TileBuffer::pixels, 0);
+    buffer.only_transparent.resize(TileBuffer::pixels, 0);
 }
 
 /// Ends a group of recorded pixels, of which `first` is the first one.
@@ -445,7 +455,7 @@ HWY_INLINE void record_surface(const TileTriangle& one, const TileJob& job, Tile
             record({static_cast<std::uint16_t>(pixel), static_cast<std::uint16_t>(seen),
                        colour_of(one, job, job.first_px.x + at.x, job.first_px.y + at.y),
                        TransparentPixel::share_of(one.extra->opacity, std::popcount(seen))},
-                buffer);
+                buffer, true);
         }
     });
     if (one.surface == nullptr) { return; }
@@ -456,7 +466,7 @@ HWY_INLINE void record_surface(const TileTriangle& one, const TileJob& job, Tile
             const float own = share > 0.0F ? share * static_cast<float>(alpha) : opacity;
             record({static_cast<std::uint16_t>(pixel), static_cast<std::uint16_t>(seen), colour,
                        TransparentPixel::share_of(own, std::popcount(seen))},
-                buffer);
+                buffer, true);
         });
 }
 
@@ -513,7 +523,7 @@ HWY_INLINE void paint_group(
     for (std::size_t i = 0; i < group.size(); ++i) {
         cover(group[i], job, lanes, buffer);
         if (group[i].extra->opacity < 1.0F) {
-            buffer.last_transparent.resize(TileBuffer::pixels, 0);
+            begin_record(buffer);
             record_surface_by_depth(group[i], job, lanes, buffer);
         } else {
             draw_by_depth(group[i], static_cast<std::uint32_t>(i + 1), job, lanes, buffer);
@@ -553,7 +563,7 @@ HWY_INLINE void record_fill(const TileTriangle& one, const TileJob& job, TileBuf
         const std::uint32_t share = alpha * static_cast<std::uint32_t>(std::popcount(seen)) >> 4U;
         record({static_cast<std::uint16_t>(pixel), static_cast<std::uint16_t>(seen),
                    {sixteenths(0), sixteenths(1), sixteenths(2)}, static_cast<std::uint16_t>(share)},
-            buffer);
+            buffer, false);
     });
 }
 
@@ -561,7 +571,7 @@ HWY_INLINE void record_fill(const TileTriangle& one, const TileJob& job, TileBuf
 HWY_NOINLINE void record_transparent(
     std::span<const TileTriangle> transparents, const TileJob& job, const SampleLanes& lanes, TileBuffer& buffer) {
     const std::size_t first = buffer.transparent_pixels.size();
-    buffer.last_transparent.resize(TileBuffer::pixels, 0);
+    begin_record(buffer);
     for (const TileTriangle& one : transparents) {
         cover(one, job, lanes, buffer);
         if (is_transparent_fill(one)) {

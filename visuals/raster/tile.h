@@ -141,6 +141,9 @@ struct TileBuffer {
     std::vector<TransparentPixel> transparent_pixels;
     std::vector<std::size_t> group_first_transparent; ///< of each group that has any
     std::vector<std::uint32_t> last_transparent;      ///< of each pixel: place in transparent_pixels, from 1; 0: none
+    /// Of each pixel: the place, from 1, of the only one that was recorded of it if that is of a surface; 0: none.
+    std::vector<std::uint32_t> only_transparent;
+    static constexpr std::uint32_t several = ~std::uint32_t{0};
     // Of the overlay: what waits to be blended.
     std::vector<std::uint16_t> pending;
     std::vector<std::uint32_t> pending_colours;

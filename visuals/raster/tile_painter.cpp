@@ -64,6 +64,9 @@ HWY_NOINLINE void reset(const TileJob& job, TileBuffer& buffer) {
     }
     buffer.full.fill(0);
     buffer.full_rows = 0;
+    for (const TransparentPixel& transparent : buffer.transparent_pixels) { // of the tile before
+        buffer.only_transparent[transparent.pixel] = 0;
+    }
     buffer.transparent_pixels.clear();
     buffer.group_first_transparent.clear();
 }
