@@ -416,8 +416,8 @@ double turns_per_minute(std::string_view kind, std::string_view property) {
 double rate_by_name(const XmlElement& animation, const glm::dvec3& direction) {
     const auto named = [](const XmlElement& child) {
         const std::string name = lower_case(child.name == "object-name" ? child.text : "");
-        return std::ranges::any_of(
-            std::array{"rotor", "prop", "blade"}, [&](const char* part) { return name.find(part) != name.npos; });
+        return std::ranges::any_of(std::array{"rotor", "prop", "blade", "helice"},
+            [&](const char* part) { return name.find(part) != name.npos; });
     };
     if (std::ranges::none_of(animation.children, named)) { return 0.0; }
     const glm::dvec3 along = glm::abs(direction);
@@ -453,8 +453,8 @@ void take_blade(std::string_view property, double factor, FlightGearRotation& tu
 /// What an animation turns while the aircraft flies: `spin` of engines and rotors, `rotate` by a rotor's angle. They
 /// turn as at cruise, since a file says by which property only: propellers at 2400 turns a minute, main rotors at 390,
 /// tail rotors at 2000, turbines at 90 per cent. `spin` by a property that does not say what it is of turns what is
-/// called rotor, propeller or blade: about a mostly upright axis as a main rotor, along as a propeller, across as a
-/// tail rotor. Nothing for wheels, instruments and all other animations. Throws Error for faulty numbers.
+/// called rotor, propeller, helice or blade: about a mostly upright axis as a main rotor, along as a propeller, across
+/// as a tail rotor. Nothing for wheels, instruments and all other animations. Throws Error for faulty numbers.
 std::optional<FlightGearRotation> rotation_in_flight(const XmlElement& animation) {
     const std::string_view kind = animation.text_of("type");
     const std::string_view property = animation.text_of("property");

@@ -128,7 +128,11 @@ void TextureStore::fit() {
 
 std::vector<std::string> TextureStore::notes() const {
     constexpr double mib = 1024.0 * 1024.0;
-    if (wanted_bytes_ <= bytes_) { return {}; }
+    if (pictures_.empty()) { return {}; }
+    if (wanted_bytes_ <= bytes_) {
+        return {fmt::format("{} pictures lie on the aircraft; they take {:.1f} MiB", pictures_.size(),
+            static_cast<double>(bytes_) / mib)};
+    }
     return {
         fmt::format("the pictures on the aircraft take {:.0f} MiB; the largest were halved until {:.0f} MiB were left "
                     "(at most {:.0f} MiB, and {} texels a side)",

@@ -236,36 +236,52 @@ struct UprightShape {
     std::array<double, 3> symmetry{};
 };
 
-/// A rotor is as wide as it is long, and nothing is above it: the largest group of the highest cells.
-UprightShape upright(const CellShape& shape, int height, bool is_flipped) {
-    constexpr double rotor_from = 0.85;
+/// The rotor of a shape whose top is towards one end of an axis: as wide as it is long, with hardly anything above it,
+/// the largest group of the cells above a share of the height. Empty where there is none.
+std::vector<glm::ivec3> rotor_above(const CellShape& shape, int height, bool is_flipped, double share) {
     constexpr double least_spread = 0.45; // of the longest side
     constexpr double least_body = 0.25;   // of all cells
     std::vector<glm::ivec3> highest;
     for (const glm::ivec3& cell : shape.cells) {
         const int above = is_flipped ? side - 1 - cell[height] : cell[height];
-        if (above >= rotor_from * side) { highest.push_back(cell); }
+        if (above >= share * side) { highest.push_back(cell); }
     }
     const auto groups = groups_of(highest);
-    if (groups.empty()) { return {shape.cells, std::nullopt, {}}; }
+    if (groups.empty()) { return {}; }
     const std::vector<glm::ivec3>& top = *std::ranges::max_element(groups, {}, &std::vector<glm::ivec3>::size);
+    if (static_cast<double>(shape.cells.size() - top.size()) < least_body * static_cast<double>(shape.cells.size())) {
+        return {};
+    }
     const glm::dvec3 extent_m = shape.cell_m * double{side};
     const double longest_m = std::max(extent_m[(height + 1) % 3], extent_m[(height + 2) % 3]);
-    glm::dvec3 hub(0.0);
-    bool is_rotor =
-        static_cast<double>(shape.cells.size() - top.size()) >= least_body * static_cast<double>(shape.cells.size());
     for (int k = 0; k < 3; ++k) {
         std::vector<double> places;
-        for (const glm::ivec3& cell : top) {
-            places.push_back(cell[k] + 0.5);
-            hub[k] += (cell[k] + 0.5) / static_cast<double>(top.size());
-        }
+        for (const glm::ivec3& cell : top) { places.push_back(cell[k] + 0.5); }
         const double spread = percentile(places, 0.97) - percentile(places, 0.03);
-        is_rotor = is_rotor && (k == height || spread * shape.cell_m[k] >= least_spread * longest_m);
+        if (k != height && spread * shape.cell_m[k] < least_spread * longest_m) { return {}; }
     }
-    if (!is_rotor) { return {shape.cells, std::nullopt, {}}; }
+    return top;
+}
+
+UprightShape upright(const CellShape& shape, int height, bool is_flipped) {
+    constexpr double rotor_from = 0.85;
+    std::vector<glm::ivec3> top = rotor_above(shape, height, is_flipped, rotor_from);
+    if (top.empty()) { // a mast may stand above the blades
+        constexpr double blades_from = 0.78;
+        constexpr double most_mast = 0.1; // of the blades
+        top = rotor_above(shape, height, is_flipped, blades_from);
+        const auto above = std::ranges::count_if(shape.cells, [&](const glm::ivec3& cell) {
+            return (is_flipped ? side - 1 - cell[height] : cell[height]) >= rotor_from * side;
+        });
+        if (static_cast<double>(above) > most_mast * static_cast<double>(top.size())) { top.clear(); }
+    }
+    if (top.empty()) { return {shape.cells, std::nullopt, {}}; }
     CellSet rotor;
-    for (const glm::ivec3& cell : top) { rotor.set(cell, true); }
+    glm::dvec3 hub(0.0);
+    for (const glm::ivec3& cell : top) {
+        rotor.set(cell, true);
+        hub += (glm::dvec3(cell) + 0.5) / static_cast<double>(top.size());
+    }
     UprightShape body{{}, hub, {}};
     std::ranges::copy_if(
         shape.cells, std::back_inserter(body.cells), [&](const glm::ivec3& cell) { return !rotor.has(cell); });
@@ -314,7 +330,7 @@ public:
 
     double score() const {
         constexpr double fin = 7.0;
-        constexpr double tailplane = 3.0;
+        const double tailplane = hub_m_ ? -1.0 : 3.0; // the tail of a helicopter is narrower than its cabin
         return fin * fin_height() + tailplane * tail_width() + wing_score() + 3.0 * flatness() + 0.5 * front_bulk() +
                rotor_score();
     }

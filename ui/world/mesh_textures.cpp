@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <limits>
 #include <map>
+#include <set>
 #include <utility>
 
 namespace octant::ui::world {
@@ -23,13 +24,14 @@ bool has_textures(const models::TriangleMesh& mesh) {
 }
 
 bool has_plain_colours(const models::TriangleMesh& mesh) {
-    if (!mesh.colours.empty() && !mesh.colours_are_means) { return false; }
-    const auto differs = [&](std::uint32_t material) {
-        return mesh.materials[material].colour != mesh.materials[mesh.triangle_materials[0]].colour;
-    };
-    return !mesh.materials.empty() && std::ranges::none_of(mesh.triangle_materials, [](std::uint32_t material) {
-        return material == invalid_index;
-    }) && std::ranges::any_of(mesh.triangle_materials, differs);
+    constexpr std::size_t most_colours = 256; // more of them are a colour a face, as scanners write it
+    if ((!mesh.colours.empty() && !mesh.colours_are_means) || mesh.materials.empty()) { return false; }
+    std::set<std::uint32_t> colours;
+    for (const std::uint32_t material : mesh.triangle_materials) {
+        if (material == invalid_index) { return false; }
+        colours.insert(models::packed_colour(mesh.materials[material].colour));
+    }
+    return colours.size() > 1 && colours.size() <= most_colours;
 }
 
 std::optional<AttributeSeams> texture_charts(

@@ -26,8 +26,8 @@ struct NodePlaces {
 /// Whether a material of a mesh has a texture that lies on triangles.
 bool has_textures(const models::TriangleMesh& mesh);
 
-/// Whether triangles without a picture have the colours of their materials, of which there are several: no colours of
-/// vertices, which run into one another.
+/// Whether triangles without a picture have the colours of their materials, of which there are several, but no more
+/// than 256: no colours of vertices, which run into one another.
 bool has_plain_colours(const models::TriangleMesh& mesh);
 
 /// The charts of a repaired mesh with textures or with plain colours (`is_plain`); nothing for one without, and, with a

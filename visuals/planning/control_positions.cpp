@@ -47,7 +47,7 @@ models::ControlPositions control_positions(const sim::AircraftState& state, cons
     const auto ground_m = ground.height_at(state.position_m.x, state.position_m.y);
     if (ground_m && std::isfinite(ground.mean_height_m())) {
         const double height_m = state.position_m.z - *ground_m; // of the reference point
-        at(Gear) = below(height_m, 90.0, 160.0) * below(speed_mps, 95.0, 125.0);
+        at(Gear) = below(height_m, 105.0, 120.0) * below(speed_mps, 105.0, 115.0); // seldom half-way
         at(Flaps) = 0.7 * below(height_m, 150.0, 300.0) * below(speed_mps, 85.0, 115.0);
     }
     return positions;

@@ -1,3 +1,4 @@
+#include "models/colour_vertex.h"
 #include "models/texture.h"
 #include "models/triangle_mesh.h"
 #include "tests/scratch.h"
@@ -9,6 +10,7 @@
 #include <glm/ext/matrix_transform.hpp>
 #include <glm/geometric.hpp>
 
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -16,6 +18,7 @@
 #include <initializer_list>
 #include <memory>
 #include <set>
+#include <span>
 
 using namespace octant;
 using namespace octant::ui::world;
@@ -130,6 +133,36 @@ TEST_CASE("simplified meshes have their pictures where they were, and seams betw
     }
     CHECK(counts.size() == 3);
     CHECK(*counts.begin() < made.mesh->face_count()); // less than a third of the triangles
+}
+
+TEST_CASE("colours of materials end at their edges however far a mesh is simplified") {
+    models::TriangleMesh mesh = sheet();
+    mesh.texture_coordinates.clear();
+    mesh.corner_texture_coordinates.clear();
+    const std::array colours{glm::vec3(1.0F, 0.0F, 0.0F), glm::vec3(0.0F, 0.0F, 1.0F)};
+    for (std::size_t side = 0; side < 2; ++side) {
+        mesh.materials[side].texture = {};
+        mesh.materials[side].colour = colours.at(side);
+    }
+    models::TriangleMesh other = mesh;
+    other.colours.assign(other.vertices_m.size(), colours[0]); // its own, which the file gives
+    CHECK(make_refine_mesh({.file = "sheet", .quiet = true}, other).textures == nullptr);
+    const RefineMesh made = make_refine_mesh({.file = "sheet", .quiet = true}, mesh);
+    REQUIRE(made.textures != nullptr);
+    CHECK(made.textures->textures.empty());
+    for (const double away_m : {150.0, 8.0}) {
+        planning::RefinedAircraft aircraft(made.mesh, refining(), {}, made.textures);
+        aircraft.update(below(away_m), looking_down(), true);
+        const scene::RefinedDraw draw = aircraft.draw();
+        REQUIRE(!draw.indices.empty());
+        for (std::size_t i = 0; i < draw.indices.size(); i += 3) {
+            const std::span<const std::uint32_t> corners = draw.indices.subspan(i, 3);
+            float middle_m = 0.0F;
+            for (const std::uint32_t corner : corners) { middle_m += draw.vertices[corner].position_m.x / 3.0F; }
+            const std::uint32_t colour = models::packed_colour(colours.at(middle_m < seam ? 0 : 1));
+            for (const std::uint32_t corner : corners) { CHECK(draw.vertices[corner].colour == colour); }
+        }
+    }
 }
 
 TEST_CASE("pictures stay where they are on a refined mesh while it changes and its vertices travel") {
