@@ -22,6 +22,7 @@
 #include <fmt/ranges.h>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -158,7 +159,14 @@ world::PlacedFlight flight_of(const TrackInfoOptions& options, std::vector<std::
     const world::SceneGround ground = world::load_scene_ground(settings, world::RenderDevice::Cpu);
     notes = ground.notes;
     notes.insert(notes.end(), loaded.notes.begin(), loaded.notes.end());
-    return world::place_flight(settings, std::move(loaded), world::placement_ground(ground), notes);
+    try {
+        return world::place_flight(settings, std::move(loaded), world::placement_ground(ground), notes);
+    } catch (const Error& fault) {
+        constexpr std::string_view own = "--over-map: "; // which this command does not have
+        const std::string_view what = fault.what();
+        if (!what.starts_with(own)) { throw; }
+        throw Error(fmt::format("--terrain: {}", what.substr(own.size())));
+    }
 }
 
 void show_track_info(const TrackInfoOptions& options) {
