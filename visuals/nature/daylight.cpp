@@ -113,8 +113,8 @@ const glm::dvec3 low_tint(1.0, 0.88, 1.28); ///< a low sun's sky is less green t
 /// The model's skies around a low sun are lemon and green: where red is stronger than blue, green keeps between both,
 /// nearer to red, and blue is not lost. `low`: 1 for a sun at the horizon, 0 for one that is high.
 glm::dvec3 without_lemon(const glm::dvec3& light, double low) {
-    const double blue = std::max(light.z, 0.16 * light.x);
-    const double green = std::min(light.y, glm::mix(light.x, blue, 0.45));
+    const double blue = std::max(light.z, 0.2 * light.x);
+    const double green = std::min(light.y, glm::mix(light.x, blue, 0.54));
     return glm::mix(light, glm::dvec3(light.x, light.x > light.z ? green : light.y, blue), low);
 }
 

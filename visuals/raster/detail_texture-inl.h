@@ -445,8 +445,8 @@ struct DetailPositionRow {
 
 /// What pairs of pixels see: in the upper half the pattern at the first one's place, 2^-15, in the lower half what the
 /// haze leaves of it, likewise; 0: no ground. Of both scales together: the squares of their shares are about one, so
-/// that the contrast stays while one gives way to the other while its levels are gone through. Most pixels take one
-/// level: the next one comes in over a sixth of the way only.
+/// that the contrast stays while one gives way to the other while its levels are gone through. A level differs from the
+/// next one by its smallest and faintest features alone: none are mixed.
 HWY_INLINE hn::Vec<PixelPairBits> sample_detail(const DetailImage& image, const DetailPositions& places) {
     const PixelPairBits bits;
     const PixelPairInts whole;
@@ -454,14 +454,10 @@ HWY_INLINE hn::Vec<PixelPairBits> sample_detail(const DetailImage& image, const 
                               HWY_ATTR { return hn::ShiftRight<8>(hn::Mul(value, share)); };
     const auto half_texel = pair_bits(128);
     const auto all = hn::Set(whole, 256);
-    const auto part = hn::BitCast(whole, hn::And(hn::ShiftRight<16>(places.level), pair_bits(0xff)));
-    const auto from_band = hn::Sub(part, hn::Set(whole, 107));
-    const auto sixfold = hn::Mul(from_band, hn::Set(whole, 6));
-    const auto share = hn::Min(hn::Max(sixfold, hn::Zero(whole)), all);
-    // What has the next level whole has it alone.
-    const auto is_next = hn::ShiftRight<8>(hn::BitCast(bits, share));
     static_assert(scene::DetailPattern::levels_per_scale == 2);
-    const auto level = hn::Add(hn::And(hn::ShiftRight<24>(places.level), pair_bits(1)), is_next);
+    // The nearer one of the levels above and below.
+    const auto halves_through = hn::And(hn::ShiftRight<23>(places.level), pair_bits(3));
+    const auto level = hn::ShiftRight<1>(hn::Add(halves_through, pair_bits(1)));
     const auto at_level = [&](hn::Vec<PixelPairBits> of) HWY_ATTR {
         const auto along = [&](std::size_t axis) HWY_ATTR {
             return hn::Sub(hn::Shr(hn::BitCast(bits, places.fine[axis]), of), half_texel);
@@ -473,12 +469,7 @@ HWY_INLINE hn::Vec<PixelPairBits> sample_detail(const DetailImage& image, const 
         return hn::Sub(hn::BitCast(bits, texels), half_texel);
     };
     const auto coarse = sample_detail_level(image, {on_coarse(1), on_coarse(2), on_coarse(0)}, hn::Zero(bits));
-    auto fine = at_level(level);
-    const auto next_level = hn::And(hn::BitCast(bits, share), pair_bits(0xff));
-    if (!hn::AllTrue(bits, hn::Eq(next_level, hn::Zero(bits)))) {
-        const auto next = at_level(hn::Add(level, pair_bits(1)));
-        fine = hn::Add(fine, share_of(hn::Sub(next, fine), hn::BitCast(whole, next_level)));
-    }
+    const auto fine = at_level(level);
     const auto through = hn::BitCast(whole, hn::And(hn::ShiftRight<17>(places.level), pair_bits(0xff)));
     const auto before = hn::Sub(all, through);
     const auto both = hn::Add(share_of(fine, hn::Sub(all, share_of(through, through))),

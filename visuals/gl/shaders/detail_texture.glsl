@@ -32,10 +32,7 @@ vec3 detail_at(vec3 place_m, vec3 across, vec3 down, float covers) {
     float level = clamp(0.5 * log2(max(width2, 1.0)), 0.0, 11.99);
     int scale = int(level / 2.0);
     float through = level / 2.0 - float(scale);
-    // Most pixels take one level: the next one comes in over a sixth of the way only.
-    float in_scale = 2.0 * through;
-    float whole = floor(in_scale);
-    in_scale = whole + clamp(6.0 * (in_scale - whole) - 2.5, 0.0, 1.0);
+    float in_scale = floor(2.0 * through + 0.5);
     float fine = textureLod(pattern, place_in_pattern(place_m, scale), in_scale).r;
     float coarse = textureLod(pattern, place_in_pattern(place_m, scale + 1), 0.0).r;
     vec2 sought = (vec2(fine, coarse) * (255.0 / 128.0) - 1.0) *
