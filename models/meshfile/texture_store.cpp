@@ -130,7 +130,7 @@ std::vector<std::string> TextureStore::notes() const {
     constexpr double mib = 1024.0 * 1024.0;
     if (pictures_.empty()) { return {}; }
     if (wanted_bytes_ <= bytes_) {
-        return {fmt::format("{} pictures lie on the aircraft; they take {:.1f} MiB", pictures_.size(),
+        return {fmt::format("pictures on the aircraft: {}, which take {:.1f} MiB", pictures_.size(),
             static_cast<double>(bytes_) / mib)};
     }
     return {

@@ -117,7 +117,7 @@ TEST_CASE("pictures beyond the budget are halved, the largest first, and that is
     CHECK(store.notes().size() == 1);
     TextureStore roomy;
     CHECK(roomy.picture_in(large)->levels.front().width == 64);
-    CHECK(roomy.notes() == std::vector<std::string>{"1 pictures lie on the aircraft; they take 0.0 MiB"});
+    CHECK(roomy.notes() == std::vector<std::string>{"pictures on the aircraft: 1, which take 0.0 MiB"});
     CHECK(TextureStore().notes().empty());
 }
 
