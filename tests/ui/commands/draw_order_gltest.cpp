@@ -149,7 +149,7 @@ TEST_CASE("a certificate is bound to its model: another one is refused in one li
 
 TEST_CASE("models of other formats than OBJ have proved orders, glass included") {
     const std::string folder = OCTANT_SOURCE_DIR "/tests/data/aircraft/";
-    for (const std::string name : {"glass/canfirst.ac", "glass/glass.obj", "nose+y.glb", "flat.ac"}) {
+    for (const std::string name : {"glass/canfirst.ac", "glass/glass.obj", "nose+y.glb", "fbx_cm.fbx", "dae_cm.dae"}) {
         INFO(name);
         const std::string proof = order_file("format.txt");
         const auto run = draw_order({folder + name, "--certificate", proof, "--rays", "4000", "--json", "--quiet"});
