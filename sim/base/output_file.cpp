@@ -82,10 +82,12 @@ int create(const std::filesystem::path& path) {
 int create_beside(const std::filesystem::path& path, std::filesystem::path& target) {
     static std::atomic<unsigned> files = 0; // threads may write the same file at once
     constexpr int max_tries = 100;
+    const std::string_view whole = path.native();
+    const std::string_view folder = whole.substr(0, whole.find_last_of('/') + 1);
     int descriptor = -1;
     for (int tries = 0; tries < max_tries; ++tries) {
-        target = path;
-        target.replace_filename(fmt::format("{}{}-{}{}", temporary_start, ::getpid(), files++, temporary_end));
+        // As one text: libstdc++'s replace_filename() and operator/= leave a broken path where memory runs out.
+        target = fmt::format("{}{}{}-{}{}", folder, temporary_start, ::getpid(), files++, temporary_end);
         descriptor = ::open(target.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0644);
         if (descriptor >= 0 || errno != EEXIST) { break; }
     }
