@@ -82,6 +82,15 @@ constexpr TrackColumns jsbsim_columns{
     {{"Time", true}, {"Latitude Geodetic (deg)", true}, {"Longitude (deg)", true}, {"Altitude ASL (ft)", true},
         {"Phi (deg)"}, {"Theta (deg)"}, {"Psi (deg)"}, {"V_{North} (ft/s)"}, {"V_{East} (ft/s)"}, {"V_{Down} (ft/s)"}}};
 
+/// Octant's columns; heading_deg takes the place of a missing yaw_deg.
+TrackColumns octant_columns_in(std::span<const std::string_view> names) {
+    TrackColumns columns = octant_columns;
+    if (!field_named(names, columns[Yaw].name) && field_named(names, "heading_deg")) {
+        columns[Yaw].name = "heading_deg";
+    }
+    return columns;
+}
+
 /// JSBSim's columns; the geocentric latitude takes the place of a missing geodetic one.
 TrackColumns jsbsim_columns_in(std::span<const std::string_view> names) {
     TrackColumns columns = jsbsim_columns;
@@ -120,7 +129,7 @@ public:
     /// occurs twice, or some but not all of the quaternion's are there.
     TrackReader(ColumnReader& table, bool is_jsbsim)
         : table_(table), is_jsbsim_(is_jsbsim),
-          columns_(is_jsbsim ? jsbsim_columns_in(table.fields()) : octant_columns) {
+          columns_(is_jsbsim ? jsbsim_columns_in(table.fields()) : octant_columns_in(table.fields())) {
         table.find(columns_);
         name_field_ = field_named(table.fields(), "aircraft");
         for (std::size_t i = QuaternionW; i <= QuaternionZ; ++i) { has_quaternion_ = has_quaternion_ || table.has(i); }
@@ -229,10 +238,10 @@ private:
         }
         if (has_quaternion_) {
             sample.body_to_world = attitude_of(row);
-        } else if (has({Roll, Pitch, Yaw})) {
-            sample.heading_rad = rad_from_deg(row[Yaw]);
-            sample.pitch_rad = rad_from_deg(row[Pitch]);
-            sample.roll_rad = rad_from_deg(row[Roll]);
+        } else {
+            if (has({Yaw})) { sample.heading_rad = rad_from_deg(row[Yaw]); }
+            if (has({Pitch})) { sample.pitch_rad = rad_from_deg(row[Pitch]); }
+            if (has({Roll})) { sample.roll_rad = rad_from_deg(row[Roll]); }
         }
         if (has({LoadFactor})) { sample.load_factor = row[LoadFactor]; }
         return sample;

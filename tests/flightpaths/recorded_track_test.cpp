@@ -53,6 +53,19 @@ TEST_CASE("own columns are found by name in any order, others are passed over") 
     CHECK_FALSE(track.origin);
 }
 
+TEST_CASE("heading_deg stands for yaw_deg, and each angle counts where the others are missing") {
+    const RecordedTrack whole = track_of("t_s,north_m,east_m,alt_m,roll_deg,pitch_deg,heading_deg\n"
+                                         "0,0,0,100,30,5,90\n1,0,50,100,30,5,90\n");
+    const auto angles = euler_from_body_to_world(whole.trajectory.samples()[0].body_to_world);
+    CHECK(angles.roll_rad == Approx(rad_from_deg(30)));
+    CHECK(angles.pitch_rad == Approx(rad_from_deg(5)));
+    CHECK(angles.heading_rad == Approx(rad_from_deg(90)));
+    const RecordedTrack backwards = track_of("t_s,north_m,east_m,alt_m,heading_deg\n"
+                                             "0,0,0,100,350\n1,50,0,100,350\n2,100,0,100,350\n");
+    const auto nose = euler_from_body_to_world(backwards.trajectory.samples()[1].body_to_world);
+    CHECK(std::remainder(nose.heading_rad - rad_from_deg(350), rad_from_deg(360)) == Approx(0.0).margin(0.02));
+}
+
 TEST_CASE("quotes around names and numbers are no part of them") {
     const RecordedTrack track = track_of("\"t_s\";\"north_m\";\"east_m\";\"alt_m\"\n\"0\";\"5\";0;\"7\";\n1;5;0;8\n");
     REQUIRE(track.trajectory.samples().size() == 2);
