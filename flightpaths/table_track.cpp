@@ -465,6 +465,10 @@ public:
         for (const auto& [name, count] : no_numbers_) {
             fixes_.add_note(fmt::format("left out {} values of column {} that are no numbers", count, printable(name)));
         }
+        if (wrong_dates_ > 0) {
+            fixes_.add_note(fmt::format("left out {} values of column {} that are no dates", wrong_dates_,
+                printable(columns_[LogQuantity::Date]->name)));
+        }
         fixes_.begin_utc_s = clock_of_begin_s_;
         return std::move(fixes_).recording(source_.follow);
     }
@@ -558,9 +562,13 @@ private:
     }
 
     /// Local dates and clocks with their offset from UTC.
-    LogTime with_date(LogTime time) const {
-        auto date = log_date(field(LogQuantity::Date));
-        if (!date) { return time; }
+    LogTime with_date(LogTime time) {
+        const std::string_view text = field(LogQuantity::Date);
+        auto date = log_date(text);
+        if (!date) {
+            wrong_dates_ += text.empty() ? 0 : 1;
+            return time;
+        }
         date->seconds += time.seconds - zone_offset_s(field(LogQuantity::UtcOffset)).value_or(0.0);
         date->is_leap_second = time.is_leap_second;
         return *date;
@@ -628,6 +636,7 @@ private:
     int line_ = 0;
     std::span<const std::string_view> fields_;
     std::optional<double> first_time_s_;
+    long wrong_dates_ = 0;
     std::optional<double> time_factor_;
     std::optional<double> clock_of_begin_s_;
     std::string last_call_sign_;

@@ -85,6 +85,16 @@ TEST_CASE("a log whose dates end with the year has a moment, and is told that it
         Catch::Matchers::VectorContains(std::string("dates are taken as month/day/year: line 2 has 03/05/2024")));
 }
 
+TEST_CASE("dates that do not exist are told, and the log is flown by its clock") {
+    const RecordedTrack track = log_of("Date,Time,lat,lon,alt_m\n"
+                                       "13/13/2024,10:00:00,47.0,8.0,300\n"
+                                       "13/13/2024,10:00:02,47.001,8.0,300\n"
+                                       "13/13/2024,10:00:04,47.002,8.0,300\n");
+    check_northward(track, 300.0, 2.0);
+    CHECK_THAT(track.notes,
+        Catch::Matchers::VectorContains(std::string("left out 3 values of column Date that are no dates")));
+}
+
 TEST_CASE("a log of Garmin's has comments and units above its names, and clocks past midnight") {
     const RecordedTrack track =
         log_of("#airframe_info, log_version=\"1.00\"\n"
