@@ -145,6 +145,13 @@ Raises octant.Error, a ValueError, for values out of range.
             py::arg("coefficients") = py::tuple(), py::arg("samples") = 16, py::arg("bits") = 8,
             py::arg("exposure") = 1.0, py::arg("noise") = 0.0, py::arg("shutter_s") = 0.0, py::arg("blur_frames") = 1,
             py::arg("row_time_s") = 0.0)
+        // Tried last: no other signature takes such arguments.
+        .def(py::init([](const py::args& values, const py::kwargs& named) -> Camera {
+            throw py::type_error(
+                "Camera: expected width, height, fov_deg and, by name, K, distortion, coefficients, samples, bits, "
+                "exposure, noise, shutter_s, blur_frames, row_time_s; got " +
+                std::string(py::repr(values)) + " and " + std::string(py::repr(named)));
+        }))
         .def_readonly("width", &Camera::width, "Pixels.")
         .def_readonly("height", &Camera::height, "Pixels.")
         .def_readonly("fov_deg", &Camera::fov_deg, "Vertical field of view, degrees; of no meaning with K.")

@@ -63,6 +63,12 @@ class Arguments(unittest.TestCase):
             with self.assertRaises(ValueError, msg=str(wrong)):
                 octant.Camera(**wrong)
 
+    def test_a_camera_names_the_arguments_that_it_does_not_have_in_one_line(self):
+        for call in (lambda: octant.Camera(fov=60), lambda: octant.Camera(64, 64, 60, 8)):
+            with self.assertRaisesRegex(TypeError, r"^Camera: expected width, height, fov_deg and, .*; got .*(fov|8).*$") as raised:
+                call()
+            self.assertNotIn("\n", str(raised.exception))
+
     def test_arguments_of_a_wrong_type_are_named_in_one_line(self):
         positions = octant.states([[0, 0, 500]])
         for text, call in (
