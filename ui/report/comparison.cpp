@@ -61,10 +61,9 @@ std::vector<std::string> differing_names(std::span<const NamedValues> all) {
     std::set<std::string_view> known;
     for (const NamedValues& one : all) {
         for (const auto& [name, value] : one) {
-            if (known.insert(name).second &&
-                std::ranges::any_of(all, [&](const NamedValues& each) { return value_of(each, name) != value; })) {
-                names.push_back(name);
-            }
+            const auto differs = [&name = name, &value = value](
+                                     const NamedValues& each) { return value_of(each, name) != value; };
+            if (known.insert(name).second && std::ranges::any_of(all, differs)) { names.push_back(name); }
         }
     }
     return names;
