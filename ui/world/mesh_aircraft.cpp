@@ -2,9 +2,9 @@
 
 #include "models/measure/mesh_distance.h"
 #include "models/meshfile/mesh_file.h"
-#include "models/meshfile/smooth_normals.h"
 #include "models/repair/repair.h"
 #include "models/simplify/simplify.h"
+#include "models/smooth_normals.h"
 #include "sim/base/error.h"
 #include "sim/base/output_file.h"
 #include "sim/base/stopwatch.h"
@@ -13,7 +13,6 @@
 #include "visuals/refine/active_mesh.h"
 #include "visuals/refine/progressive_file.h"
 #include "visuals/refine/selective_refiner.h"
-#include "visuals/shading/vertex_normals.h"
 
 #include <algorithm>
 #include <array>
@@ -135,9 +134,9 @@ void add_missing_normals(models::TriangleMesh& mesh) {
     if (!mesh.corner_normals.empty()) { return; }
     mesh.corner_normals.assign(
         mesh.triangles.size(), {models::invalid_index, models::invalid_index, models::invalid_index});
-    constexpr meshfile::Smoothing smooth{
-        meshfile::Smoothing::flat + 1, static_cast<float>(visuals::shading::default_crease_rad)};
-    meshfile::add_smooth_normals(mesh, std::vector(mesh.triangles.size(), smooth));
+    constexpr models::Smoothing smooth{
+        models::Smoothing::flat + 1, static_cast<float>(models::default_crease_rad)};
+    models::add_smooth_normals(mesh, std::vector(mesh.triangles.size(), smooth));
 }
 
 /// The hierarchy's mesh after as many of its coarsest splits as far polygons allow.
