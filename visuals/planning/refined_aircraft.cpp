@@ -39,6 +39,15 @@ std::uint32_t mean_colour(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
     return mean;
 }
 
+/// For each material of a hierarchy whether it is transparent; empty where none of its faces is, or all are.
+std::vector<bool> transparent_materials(const refine::ProgressiveMeshData& parts) {
+    std::vector<bool> is_clear;
+    for (const models::Material& material : parts.materials) { is_clear.push_back(models::is_transparent(material)); }
+    const auto count = std::ranges::count_if(parts.face_materials, [&](auto material) { return is_clear[material]; });
+    const bool are_some = count > 0 && static_cast<std::size_t>(count) < parts.face_materials.size();
+    return are_some ? is_clear : std::vector<bool>();
+}
+
 } // namespace
 
 RefinedAircraft::RefinedAircraft(std::shared_ptr<const refine::ProgressiveMesh> mesh,
@@ -46,7 +55,8 @@ RefinedAircraft::RefinedAircraft(std::shared_ptr<const refine::ProgressiveMesh> 
     std::shared_ptr<const refine::MeshTextures> textures, std::shared_ptr<const refine::MeshCreases> creases)
     : refiner_(std::move(mesh), options, textures),
       textures_(shading.show_model == scene::ModelDisplay::None ? std::move(textures) : nullptr),
-      creases_(std::move(creases)), selector_(shading_rule_of(shading)),
+      creases_(std::move(creases)), is_left_out_(transparent_materials(refiner_.front().mesh().parts())),
+      selector_(shading_rule_of(shading)),
       lights_corners_(shading.rule != scene::HybridRule::Paper && (textures_ || creases_)),
       shows_levels_(shading.show_model == scene::ModelDisplay::Levels) {}
 
@@ -269,6 +279,7 @@ void RefinedAircraft::write_indices() {
             continue; // a place without a triangle
         }
         const std::uint32_t face = front.face_at(place);
+        if (!is_left_out_.empty() && is_left_out_[front.mesh().parts().face_materials[face]]) { continue; }
         const std::uint32_t chart = chart_of(face);
         const std::array<std::uint32_t, 3> corners{
             corner_vertex(slots[0], chart), corner_vertex(slots[1], chart), corner_vertex(slots[2], chart)};
@@ -281,16 +292,16 @@ void RefinedAircraft::write_indices() {
 }
 
 scene::RefinedDraw RefinedAircraft::draw() {
-    const bool all_smooth = !choosing_ && !all_flat_;
+    const bool is_front = !choosing_ && !all_flat_ && !textures_ && !creases_ && is_left_out_.empty();
     assert(!choosing_ || !front_changed_);
     if (drawn_changed_) {
         follow_front();
-        if (!all_smooth || textures_ || creases_) { write_indices(); }
+        if (!is_front) { write_indices(); }
     }
     drawn_changed_ = false;
     scene::RefinedDraw draw;
     draw.vertices = vertices_;
-    draw.indices = all_smooth && !textures_ && !creases_ ? refiner_.front().indices() : indices_;
+    draw.indices = is_front ? refiner_.front().indices() : indices_;
     return draw;
 }
 

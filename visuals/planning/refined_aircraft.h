@@ -27,7 +27,8 @@ shading::ShadingRuleSettings shading_rule_of(const scene::ShadingSettings& setti
 /// mesh that have changed since the last frame are computed again.
 class RefinedAircraft {
 public:
-    /// The hierarchy is in body axes. `textures`: the pictures on it; `creases`: its edges; null: none.
+    /// The hierarchy is in body axes. Its transparent faces are not drawn, unless all are: AircraftModel::glass shows
+    /// them. `textures`: the pictures on it; `creases`: its edges; null: none.
     RefinedAircraft(std::shared_ptr<const refine::ProgressiveMesh> mesh, const refine::ViewRefinerOptions& options,
         const scene::ShadingSettings& shading, std::shared_ptr<const refine::MeshTextures> textures = {},
         std::shared_ptr<const refine::MeshCreases> creases = {});
@@ -71,6 +72,8 @@ private:
     /// Null where none are shown.
     std::shared_ptr<const refine::MeshTextures> textures_;
     std::shared_ptr<const refine::MeshCreases> creases_;
+    /// For each material of the hierarchy whether its faces are left out; empty: none.
+    std::vector<bool> is_left_out_;
     shading::DynamicMeshSelector selector_;
     /// Whether the selector lights the corners of triangles one by one; else vertices.
     bool lights_corners_;
