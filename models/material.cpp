@@ -1,6 +1,7 @@
 #include "models/material.h"
 
 #include <cmath>
+#include <utility>
 
 namespace octant::models {
 
@@ -23,6 +24,13 @@ glm::dvec3 srgb_from_linear(const glm::dvec3& linear) {
 
 glm::dvec3 linear_from_srgb(const glm::dvec3& display) {
     return {decoded(display.x), decoded(display.y), decoded(display.z)};
+}
+
+void set_picture(Material& material, std::shared_ptr<const TexturePicture> picture) {
+    material.texture.alpha = picture->is_opaque         ? TextureAlpha::Opaque
+                             : is_transparent(material) ? TextureAlpha::Blend
+                                                        : TextureAlpha::Mask;
+    material.texture.picture = std::move(picture);
 }
 
 } // namespace octant::models

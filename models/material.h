@@ -43,4 +43,7 @@ inline constexpr float seen_from_opacity = 0.02F;
 
 inline bool is_transparent(const Material& material) { return material.opacity < opaque_from_opacity; }
 
+/// Puts a decoded picture on a material whose file does not say what the picture's alpha does.
+void set_picture(Material& material, std::shared_ptr<const TexturePicture> picture);
+
 } // namespace octant::models

@@ -431,8 +431,8 @@ std::string ac3d_text(const TriangleMesh& mesh) {
     const std::vector<std::string> names = unique_material_names(mesh.materials);
     for (std::size_t m = 0; m < names.size(); ++m) {
         const glm::vec3& colour = mesh.materials[m].colour;
-        text += fmt::format("MATERIAL \"{}\" rgb {} {} {} amb 0.2 0.2 0.2 emis 0 0 0 spec 0 0 0 shi 10 trans 0\n",
-            names[m], colour.x, colour.y, colour.z);
+        text += fmt::format("MATERIAL \"{}\" rgb {} {} {} amb 0.2 0.2 0.2 emis 0 0 0 spec 0 0 0 shi 10 trans {}\n",
+            names[m], colour.x, colour.y, colour.z, 1.0F - mesh.materials[m].opacity);
     }
     text += "OBJECT world\nkids 1\nOBJECT poly\nname \"mesh\"\n";
     if (const std::string picture = single_picture(mesh); !picture.empty()) {

@@ -92,8 +92,10 @@ public:
 private:
     void add_material(const Material& material) {
         const glm::dvec3 c = linear_from_srgb(glm::dvec3(material.colour));
-        json_["materials"].push_back({{"name", material.name},
-            {"pbrMetallicRoughness", {{"baseColorFactor", {c.x, c.y, c.z, 1.0}}, {"metallicFactor", 0.0F}}}});
+        json_["materials"].push_back(
+            {{"name", material.name}, {"pbrMetallicRoughness", {{"baseColorFactor", {c.x, c.y, c.z, material.opacity}},
+                                                                   {"metallicFactor", 0.0F}}}});
+        if (material.opacity < 1.0F) { json_["materials"].back()["alphaMode"] = "BLEND"; }
         if (material.picture_bytes && is_gltf_picture(*material.picture_bytes)) {
             json_["materials"].back()["pbrMetallicRoughness"]["baseColorTexture"] = {{"index", texture_of(material)}};
         }

@@ -29,6 +29,9 @@ namespace {
 
 static_assert(sizeof(Triangle) == 12 && sizeof(polygons::Polygon) == 16);
 
+/// From this version on materials have an opacity; before, all were opaque.
+constexpr std::uint32_t version_with_opacities = 2;
+
 /// Puts each part of a mesh or model.
 class ChainWriter {
 public:
@@ -37,6 +40,7 @@ public:
     void put(const Material& material) {
         put(material.name);
         out.put(material.colour);
+        out.put(material.opacity);
     }
 
     void put(const polygons::Pivot& pivot) {
@@ -77,6 +81,7 @@ public:
     void take(Material& material) {
         take(material.name);
         take_finite(material.colour);
+        if (in.archive_version() >= version_with_opacities) { take_finite(material.opacity); }
     }
 
     void take(polygons::Pivot& pivot) {
@@ -151,7 +156,9 @@ bool is_colour(const glm::vec3& colour) {
 }
 
 bool sound(const std::vector<Material>& materials) {
-    return std::ranges::all_of(materials, [](const Material& material) { return is_colour(material.colour); });
+    return std::ranges::all_of(materials, [](const Material& material) {
+        return is_colour(material.colour) && material.opacity >= 0.0F && material.opacity <= 1.0F;
+    });
 }
 
 template <typename Part>
@@ -201,7 +208,7 @@ TriangleMesh take_mesh(BinaryReader& in) {
     in.check(all_below(mesh.triangles, mesh.vertices_m.size()) && all_below(mesh.corner_normals, mesh.normals.size()) &&
                  all_below(mesh.triangle_materials, mesh.materials.size()),
         "indices in range");
-    in.check(std::ranges::all_of(mesh.colours, is_colour) && sound(mesh.materials), "colours of 0 to 1");
+    in.check(std::ranges::all_of(mesh.colours, is_colour) && sound(mesh.materials), "colours and opacities of 0 to 1");
     in.check(std::ranges::all_of(mesh.normals, is_unit<float>), "normals of length 1");
     return mesh;
 }
@@ -218,7 +225,7 @@ polygons::PolygonModel take_model(BinaryReader& in) {
     for (const polygons::Pivot& pivot : model.pivots) { good = good && pivot.part < model.parts.size(); }
     in.check(good, "indices in range");
     in.check(corners_in_order(model), "polygons of 3 to 1000 corners, one behind the other");
-    in.check(sound(model.materials), "colours of 0 to 1");
+    in.check(sound(model.materials), "colours and opacities of 0 to 1");
     in.check(!model.materials.empty() && !model.parts.empty(), "a material and a part");
     in.check(model.parents.empty() || model.parents.size() == model.polygons.size(), "a parent for each polygon");
     in.check(model.pivots.size() <= 1000, "at most 1000 pivots");
@@ -298,8 +305,11 @@ void take_textures(BinaryReader& in, LevelChain& chain) {
     }
 }
 
-constexpr ArchiveKind chain_kind{
-    .content = "a chain of levels", .signature = "octchain", .version = 1, .max_bytes = std::size_t{1} << 31U};
+constexpr ArchiveKind chain_kind{.content = "a chain of levels",
+    .signature = "octchain",
+    .version = version_with_opacities,
+    .oldest_version = 1,
+    .max_bytes = std::size_t{1} << 31U};
 constexpr std::uint32_t max_levels = 1000;
 
 double take_error_m(BinaryReader& in, double min_m) {

@@ -30,8 +30,8 @@ struct LevelChain {
 /// Whether a file calls itself a chain by its ending, .chain.
 bool is_chain_file(const std::filesystem::path& path);
 
-/// Reads a file of write_chain. Throws Error "file: ..." for another version, a wrong checksum and anything that the
-/// file cannot hold.
+/// Reads a file of write_chain, or of its version 1, which had no opacities. Throws Error "file: ..." for another
+/// version, a wrong checksum and anything that the file cannot hold.
 LevelChain read_chain(const std::filesystem::path& path);
 
 /// One versioned, checksummed binary file, with texture coordinates and the encoded pictures of materials inside.

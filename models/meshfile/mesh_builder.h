@@ -3,8 +3,8 @@
 #include "models/heights/image.h"
 #include "models/meshfile/mesh_parts.h"
 #include "models/meshfile/picture_path.h"
-#include "models/meshfile/smooth_normals.h"
 #include "models/meshfile/texture_store.h"
+#include "models/smooth_normals.h"
 #include "models/triangle_mesh.h"
 
 #include <glm/vec2.hpp>

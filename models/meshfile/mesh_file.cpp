@@ -148,7 +148,7 @@ constexpr std::array formats{Format{".obj", read_obj, true, write_obj_mesh},
     Format{".off", read_off}, Format{".gltf", read_gltf, true, write_gltf_mesh<gltf_text>, "", true, true},
     Format{".glb", read_gltf, true, write_gltf_mesh<glb_bytes>, "", true, true},
     Format{".ac", read_ac3d, true, write_ac3d_mesh, "normals, colours of vertices"},
-    Format{".wrl", read_vrml, false, write_one_file<vrml_text>, "texture coordinates"}, Format{".dnm", read_dnm, true},
+    Format{".wrl", read_vrml, true, write_one_file<vrml_text>, "texture coordinates"}, Format{".dnm", read_dnm, true},
     Format{".srf", read_srf, true}, Format{".xml", nullptr}, Format{".acf", nullptr}};
 
 const Format* find_format(const std::filesystem::path& path) {
@@ -225,6 +225,14 @@ std::shared_ptr<const std::string> picture_bytes_of(const Material& material) {
         return material.picture_bytes;
     }
     return std::make_shared<const std::string>(read_file(material.picture, largest_bytes));
+}
+
+TriangleMesh mesh_at_rest(RotatingModel model) {
+    for (RotatingPart& part : model.parts) {
+        if (is_shown_at_rest(part.moves)) { join_mesh(model.body, std::move(part.mesh), {}); }
+    }
+    join_mesh(model.body, std::move(model.clear), {});
+    return std::move(model.body);
 }
 
 TriangleMesh read_mesh(const std::filesystem::path& path, const ReadOptions& options) {

@@ -45,6 +45,9 @@ MeshParts read_parts(const std::filesystem::path& path, const ReadOptions& optio
 /// hidden at rest, such as landing gear, are among these parts alone. Throws Error.
 RotatingModel read_rotating_model(const std::filesystem::path& path, const ReadOptions& options);
 
+/// All of a model as at rest in one mesh.
+TriangleMesh mesh_at_rest(RotatingModel model);
+
 /// Whether a file is an X-Plane object (OBJ8), by its first lines; false where it cannot be read.
 bool is_xplane_object(const std::filesystem::path& path);
 

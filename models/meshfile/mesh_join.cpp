@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
+#include <algorithm>
 #include <cmath>
 
 namespace octant::models::meshfile {
@@ -111,6 +112,22 @@ void erase_unused_vertices(TriangleMesh& mesh) {
         keep_used(mesh.colours, corners);
     }
     keep_used(mesh.vertices_m, mesh.triangles);
+}
+
+TriangleMesh take_transparent(TriangleMesh& mesh) {
+    std::vector<bool> is_clear;
+    for (const std::uint32_t material : mesh.triangle_materials) {
+        is_clear.push_back(is_transparent(mesh.materials[material]));
+    }
+    const auto count = std::ranges::count(is_clear, true);
+    if (count == 0 || static_cast<std::size_t>(count) == is_clear.size()) { return {}; }
+    TriangleMesh clear = mesh;
+    clear.notes.clear();
+    erase_triangles(mesh, is_clear);
+    is_clear.flip();
+    erase_triangles(clear, is_clear);
+    for (TriangleMesh* part : {&mesh, &clear}) { erase_unused_vertices(*part); }
+    return clear;
 }
 
 TriangleMesh part_of_materials(const TriangleMesh& mesh, std::uint32_t first_material, std::uint32_t count) {

@@ -47,6 +47,10 @@ void erase_triangles(TriangleMesh& mesh, const std::vector<bool>& gone);
 /// Removes vertices that no triangle uses.
 void erase_unused_vertices(TriangleMesh& mesh);
 
+/// Moves the triangles of transparent materials into a mesh of their own, with the attributes that they use. Where all
+/// are transparent none is moved: nothing is to be seen through them.
+TriangleMesh take_transparent(TriangleMesh& mesh);
+
 /// Returns the triangles of `count` materials from `first_material` on, with the materials, vertices and attributes
 /// that they use, in the same order.
 TriangleMesh part_of_materials(const TriangleMesh& mesh, std::uint32_t first_material, std::uint32_t count);

@@ -75,7 +75,4 @@ struct RotatingModel {
     TriangleMesh clear; ///< as MeshParts
 };
 
-/// All of a model as at rest in one mesh.
-TriangleMesh mesh_at_rest(RotatingModel model);
-
 } // namespace octant::models::meshfile

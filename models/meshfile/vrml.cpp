@@ -270,6 +270,10 @@ public:
         return false;
     }
 
+    double number(const VrmlNode& node, std::string_view name, double otherwise) const {
+        return numbers(node, name, {otherwise}).front();
+    }
+
     /// The node, or the first one, in a field; null without.
     const VrmlNode* only_node(const VrmlNode& node, std::string_view name) const {
         const VrmlField* field = node.field(name);
@@ -497,8 +501,10 @@ private:
         if (used == invalid_index) {
             const glm::dvec3 colour = fields_.vector(*node, "diffuseColor", glm::dvec3(0.8));
             check_colour(colour, node->line);
+            const double clear = std::clamp(fields_.number(*node, "transparency", 0.0), 0.0, 1.0);
             const std::string name(node->name.empty() ? "material" : node->name);
-            used = mesh_.add_material({name, glm::vec3(colour)});
+            used = mesh_.add_material(
+                {.name = name, .colour = glm::vec3(colour), .opacity = static_cast<float>(1.0 - clear)});
         }
         return used;
     }
@@ -634,9 +640,11 @@ private:
         text_ += "  Shape {\n";
         if (!names_.empty()) {
             const glm::vec3& colour = mesh_.materials[material].colour;
-            text_ += fmt::format("    appearance Appearance {{ material DEF {} Material {{ diffuseColor {} {} {} "
+            const float clear = 1.0F - mesh_.materials[material].opacity;
+            text_ += fmt::format("    appearance Appearance {{ material DEF {} Material {{ diffuseColor {} {} {}{} "
                                  "}} }}\n",
-                identifier(names_[material]), colour.x, colour.y, colour.z);
+                identifier(names_[material]), colour.x, colour.y, colour.z,
+                clear > 0.0F ? fmt::format(" transparency {}", clear) : "");
         }
         text_ += "    geometry IndexedFaceSet {\n";
         append_lists();

@@ -3,6 +3,7 @@
 // flight, all others are read as at rest, where datarefs are 0, seen from outside. An aircraft (.acf) names its
 // objects.
 #include "models/meshfile/mesh_builder.h"
+#include "models/meshfile/mesh_file.h"
 #include "models/meshfile/mesh_formats.h"
 #include "models/meshfile/mesh_join.h"
 #include "sim/base/error.h"

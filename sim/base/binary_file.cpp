@@ -55,9 +55,13 @@ BinaryReader archive_body(std::string_view bytes, const std::filesystem::path& f
     if (head.take_bytes(kind.signature.size(), kind.content) != kind.signature) {
         head.refuse_at(0, kind.content, "another file");
     }
-    const auto version = head.take<std::uint32_t>("a version");
-    if (version != kind.version) {
-        head.refuse_at(8, fmt::format("version {}", kind.version), std::to_string(version));
+    head.archive_version_ = head.take<std::uint32_t>("a version");
+    const std::uint32_t oldest = kind.oldest_version == 0 ? kind.version : kind.oldest_version;
+    if (head.archive_version_ < oldest || head.archive_version_ > kind.version) {
+        head.refuse_at(8,
+            oldest == kind.version ? fmt::format("version {}", oldest)
+                                   : fmt::format("version {} to {}", oldest, kind.version),
+            std::to_string(head.archive_version_));
     }
     if (const auto zero = head.take<std::uint32_t>("a zero"); zero != 0) {
         head.refuse_at(12, "0", std::to_string(zero));

@@ -83,6 +83,9 @@ public:
 
     std::size_t bytes_left() const { return bytes_.size() - at_; }
 
+    /// The version of the archive whose body this reads; 0 for other bytes.
+    std::uint32_t archive_version() const { return archive_version_; }
+
     template <class Value>
     Value take(const char* what = "a number") {
         return value_at<Value>(take_bytes(sizeof(Value), what).data(), order_);
@@ -121,9 +124,13 @@ public:
     [[noreturn]] void refuse_at(std::size_t at, const std::string& expected, const std::string& got) const;
 
 private:
+    friend BinaryReader archive_body(
+        std::string_view bytes, const std::filesystem::path& file, const struct ArchiveKind& kind);
+
     std::filesystem::path file_;
     std::string_view bytes_;
     std::size_t at_ = 0;
+    std::uint32_t archive_version_ = 0;
     std::endian order_ = std::endian::little;
 };
 
@@ -135,6 +142,7 @@ struct ArchiveKind {
     const char* content = "";                      ///< In messages: "a chain of levels".
     std::string_view signature;                    ///< 8 characters.
     std::uint32_t version = 1;                     ///< Raised when the same content gives another body.
+    std::uint32_t oldest_version = 0;              ///< Of the versions that are read; 0: `version` alone.
     std::size_t max_bytes = std::size_t{1} << 30U; ///< Larger bodies are neither written nor read.
 };
 

@@ -14,6 +14,8 @@
 #include "ui/settings/setting_rows.h"
 #include "ui/world/aircraft_frame.h"
 #include "ui/world/mesh_loader.h"
+#include "visuals/refine/active_mesh.h"
+#include "visuals/refine/progressive_file.h"
 
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
@@ -185,8 +187,13 @@ struct ModelInfoOptions : base::OutputOptions {
 
 models::TriangleMesh read_any_mesh(
     const std::string& file, const std::shared_ptr<models::meshfile::TextureStore>& textures) {
-    return models::meshfile::is_chain_file(file) ? std::move(models::meshfile::read_chain(file).levels.front().mesh)
-                                                 : world::load_mesh(file, {.pictures = true, .textures = textures});
+    if (models::meshfile::is_chain_file(file)) {
+        return std::move(models::meshfile::read_chain(file).levels.front().mesh);
+    }
+    if (visuals::refine::is_progressive_file(file)) {
+        return visuals::refine::finest_mesh(visuals::refine::read_progressive(file));
+    }
+    return world::load_mesh(file, {.pictures = true, .textures = textures});
 }
 
 void turn_into_body(models::TriangleMesh& mesh, const models::polygons::FileAxes& axes) {
@@ -204,8 +211,8 @@ void add_materials(base::JsonValue& results, const models::TriangleMesh& mesh) {
     std::vector<std::pair<std::string, std::size_t>> lines; // how often each comes
     for (const models::Material& material : mesh.materials) {
         const glm::vec3& colour = material.colour;
-        std::string line =
-            fmt::format("{} ({:.2f} {:.2f} {:.2f})", printable(material.name), colour.x, colour.y, colour.z);
+        std::string line = fmt::format("{} ({:.2f} {:.2f} {:.2f}{})", printable(material.name), colour.x, colour.y,
+            colour.z, material.opacity < 1.0F ? fmt::format(", opacity {:.2f}", material.opacity) : "");
         const auto known = std::ranges::find(lines, line, &std::pair<std::string, std::size_t>::first);
         if (known == lines.end()) {
             lines.emplace_back(std::move(line), 1);
@@ -305,20 +312,22 @@ Command model_info_command() {
     auto options = std::make_shared<ModelInfoOptions>();
     return {.name = "info",
         .summary = "Shows size, axes, surface defects and materials of a mesh, and draws three views of it",
-        .options = with_output_options(*options,
-            {required(text_option("file", "FILE",
-                 "a mesh (.obj, .ply, .stl, .gltf, .glb, .ac, .wrl, .dnm, .srf, .xml, .acf, .chain) or a built-in name",
-                 options->file)),
-                text_option("--picture", "OUT.png",
-                    "write a picture with views from the left, above and ahead; the nose points left",
-                    options->picture),
-                text_option("--axes", "X,Y,Z|auto",
-                    "directions of the file's x, y and z axes: right, left, up, down, forward, back",
-                    options->frame.axes),
-                value_option(settings::aircraft_scale_info, options->frame.scale)}),
+        .options = with_output_options(
+            *options, {required(text_option("file", "FILE",
+                           "a mesh (.obj, .ply, .stl, .gltf, .glb, .ac, .wrl, .dnm, .srf, .xml, .acf, .chain, .pm) or "
+                           "a built-in name",
+                           options->file)),
+                          text_option("--picture", "OUT.png",
+                              "write a picture with views from the left, above and ahead; the nose points left",
+                              options->picture),
+                          text_option("--axes", "X,Y,Z|auto",
+                              "directions of the file's x, y and z axes: right, left, up, down, forward, back",
+                              options->frame.axes),
+                          value_option(settings::aircraft_scale_info, options->frame.scale)}),
         .footer = "Keys: file, length_m, span_m, height_m, scale, axes, axes_are, faces and "
                   "vertices as read,\n  shells, closed and defects as repaired, materials "
-                  "(red green blue) and how often, vertex_colours,\n  pictures that lie on it, emissive_pictures, "
+                  "(red green blue, opacity where they are clear) and how often, vertex_colours,\n  pictures that lie "
+                  "on it, emissive_pictures, "
                   "picture_bytes "
                   "in memory with mip levels, notes, picture.\n"
                   "Example:\n  octant model info f15 --picture f15.png",

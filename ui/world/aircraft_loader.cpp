@@ -16,7 +16,6 @@
 #include "ui/settings/settings.h"
 #include "ui/world/input_files.h"
 #include "ui/world/mesh_aircraft.h"
-#include "visuals/draworder/opaque_first.h"
 #include "visuals/draworder/ordered_model.h"
 #include "visuals/ordercache/order_cache.h"
 #include "visuals/planning/aircraft_model.h"
@@ -265,12 +264,8 @@ void take_pictures(PolygonModel& model, const fs::path& file, LoadContext& conte
         if (material.picture.empty()) { continue; }
         const fs::path picture = models::meshfile::picture_file(file, material.picture);
         try {
-            material.texture.picture = context.textures->picture_in(picture);
+            models::set_picture(material, context.textures->picture_in(picture));
             material.picture = picture.string();
-            const bool is_opaque = material.texture.picture->is_opaque;
-            material.texture.alpha = is_opaque                          ? models::TextureAlpha::Opaque
-                                     : models::is_transparent(material) ? models::TextureAlpha::Blend
-                                                                        : models::TextureAlpha::Mask;
             if (material.colour == glm::vec3(0.0F)) { material.colour = glm::vec3(1.0F); } // as meshes
         } catch (const Error& fault) {
             context.notes.push_back(fmt::format("{}; its surfaces have their material's colour", fault.what()));

@@ -2,9 +2,9 @@
 
 #include "models/measure/mesh_distance.h"
 #include "models/meshfile/mesh_file.h"
-#include "models/meshfile/smooth_normals.h"
 #include "models/repair/repair.h"
 #include "models/simplify/simplify.h"
+#include "models/smooth_normals.h"
 #include "sim/base/error.h"
 #include "sim/base/output_file.h"
 #include "sim/base/stopwatch.h"
@@ -13,7 +13,6 @@
 #include "visuals/refine/active_mesh.h"
 #include "visuals/refine/progressive_file.h"
 #include "visuals/refine/selective_refiner.h"
-#include "visuals/shading/vertex_normals.h"
 
 #include <algorithm>
 #include <array>
@@ -135,9 +134,8 @@ void add_missing_normals(models::TriangleMesh& mesh) {
     if (!mesh.corner_normals.empty()) { return; }
     mesh.corner_normals.assign(
         mesh.triangles.size(), {models::invalid_index, models::invalid_index, models::invalid_index});
-    constexpr meshfile::Smoothing smooth{
-        meshfile::Smoothing::flat + 1, static_cast<float>(visuals::shading::default_crease_rad)};
-    meshfile::add_smooth_normals(mesh, std::vector(mesh.triangles.size(), smooth));
+    constexpr models::Smoothing smooth{models::Smoothing::flat + 1, static_cast<float>(models::default_crease_rad)};
+    models::add_smooth_normals(mesh, std::vector(mesh.triangles.size(), smooth));
 }
 
 /// The hierarchy's mesh after as many of its coarsest splits as far polygons allow.
@@ -148,15 +146,6 @@ models::TriangleMesh far_mesh(const std::shared_ptr<const refine::ProgressiveMes
         front.split(node);
     }
     return refine::active_mesh(front).mesh;
-}
-
-models::TriangleMesh finest_mesh(const refine::ProgressiveMesh& hierarchy) {
-    models::TriangleMesh mesh;
-    for (std::uint32_t leaf = 0; leaf < hierarchy.leaf_count(); ++leaf) {
-        mesh.vertices_m.push_back(hierarchy.parts().origin_m + glm::dvec3(hierarchy.position_m(leaf)));
-    }
-    mesh.triangles.assign(hierarchy.faces().begin(), hierarchy.faces().end());
-    return mesh;
 }
 
 /// All of a model as one mesh, for its axes and its size.
@@ -225,9 +214,10 @@ FileHierarchy hierarchy_in(const fs::path& file, const AircraftFrameSettings& fr
     FileHierarchy result;
     if (refine::is_progressive_file(file)) {
         result.mesh = read_refine_mesh(input);
-        const models::TriangleMesh whole = finest_mesh(*result.mesh.mesh);
+        models::TriangleMesh whole = refine::finest_mesh(*result.mesh.mesh);
         result.axes = aircraft_axes(frame.axes, file, whole);
         result.bounds = models::bounds_of(whole);
+        result.clear = meshfile::take_transparent(whole);
         return result;
     }
     const meshfile::ReadOptions options{.pictures = true, .textures = std::move(textures), .backs = true};
@@ -275,8 +265,10 @@ MeshAircraft from_hierarchy(const fs::path& file, const AircraftFrameSettings& f
     aircraft.creases = turned(input.mesh.creases, axes);
     aircraft.textures = std::move(input.mesh.textures);
     models::TriangleMesh far = far_mesh(aircraft.hierarchy);
-    for (models::Material& material : far.materials) { material.opacity = 1.0F; } // glass is apart
-    aircraft.polygons_error_m = max_distance_m(finest_mesh(*aircraft.hierarchy), far);
+    models::TriangleMesh finest = refine::finest_mesh(*aircraft.hierarchy);
+    for (models::TriangleMesh* mesh : {&far, &finest}) { meshfile::take_transparent(*mesh); } // glass is apart
+    for (models::Material& material : far.materials) { material.opacity = 1.0F; }
+    aircraft.polygons_error_m = max_distance_m(finest, far);
     aircraft.polygons = models::polygons::polygons_from_mesh(far);
     for (RotatingPart& part : aircraft.turning) {
         move_mesh(part.mesh, origin, frame.scale);
@@ -308,9 +300,7 @@ void take_textures(meshfile::LevelChain& chain, meshfile::TextureStore& textures
         for (models::Material& material : level.mesh.materials) {
             if (!material.picture_bytes) { continue; }
             try {
-                material.texture.picture = textures.picture_of(material.picture, *material.picture_bytes);
-                material.texture.alpha =
-                    material.texture.picture->is_opaque ? models::TextureAlpha::Opaque : models::TextureAlpha::Mask;
+                models::set_picture(material, textures.picture_of(material.picture, *material.picture_bytes));
             } catch (const Error& fault) {
                 const std::string note = fmt::format("{}; its surfaces have their material's colour", fault.what());
                 if (std::ranges::find(notes, note) == notes.end()) { notes.push_back(note); }
@@ -339,12 +329,14 @@ MeshAircraft from_chain(
         pivot.axis = axes.body_from_file(pivot.axis);
     }
     for (meshfile::ChainLevel& level : chain.levels) {
+        const bool is_finest = &level == &chain.levels.front();
         level.error_m *= frame.scale;
-        if (level.error_m < aircraft.polygons_error_m) {
-            scale_mesh(level.mesh, frame.scale);
-            rotate_mesh_to_body(level.mesh, axes);
-            aircraft.levels.push_back(std::move(level));
-        }
+        if (level.error_m >= aircraft.polygons_error_m && !is_finest) { continue; }
+        scale_mesh(level.mesh, frame.scale);
+        rotate_mesh_to_body(level.mesh, axes);
+        const models::TriangleMesh clear = meshfile::take_transparent(level.mesh);
+        if (is_finest) { aircraft.glass = glass_of(clear); }
+        if (level.error_m < aircraft.polygons_error_m) { aircraft.levels.push_back(std::move(level)); }
     }
     return aircraft;
 }

@@ -212,7 +212,7 @@ void note_repairs(const RefineMeshOptions& input, RefineMesh& mesh) {
 namespace {
 
 /// Collapses the edges of a repaired mesh. Where pictures lie on it, seams of their coordinates are kept, and the nodes
-/// get places on them; else there are no places.
+/// get places on them; each chart keeps name, colour and opacity of its material. Else there are no places.
 std::pair<std::shared_ptr<const refine::ProgressiveMesh>, NodePlaces> hierarchy_of(models::TriangleMesh mesh,
     bool is_plain, const models::simplify::SimplifyOptions& options, std::vector<std::string>& notes) {
     const std::optional<models::simplify::AttributeSeams> charts = texture_charts(mesh, is_plain, notes);
@@ -222,6 +222,13 @@ std::pair<std::shared_ptr<const refine::ProgressiveMesh>, NodePlaces> hierarchy_
             {}};
     }
     models::CollapseSequence sequence = models::simplify::fast_sequence(charts->marked(), options);
+    for (std::size_t chart = 0; chart < sequence.original.materials.size(); ++chart) {
+        const std::uint32_t of_chart = charts->materials_of_charts()[chart];
+        if (of_chart >= mesh.materials.size()) { continue; }
+        const models::Material& material = mesh.materials[of_chart];
+        sequence.original.materials[chart] = {
+            .name = material.name, .colour = material.colour, .opacity = material.opacity};
+    }
     sequence.original.normals = std::move(mesh.normals);
     sequence.original.corner_normals = std::move(mesh.corner_normals);
     auto made = std::make_shared<const refine::ProgressiveMesh>(sequence);
@@ -265,7 +272,7 @@ namespace {
 
 /// Raised whenever make_refine_mesh() gives any mesh another hierarchy, or its file another layout: what was cached
 /// before is then made anew.
-constexpr unsigned refine_mesh_cache_version = 7;
+constexpr unsigned refine_mesh_cache_version = 8;
 
 template <class Item>
 void add_list(Hash& hash, const std::vector<Item>& list) {

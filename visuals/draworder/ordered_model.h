@@ -50,6 +50,15 @@ struct OrderedModel {
 /// was used, how many pairs are unproved and how many rays were wrong.
 OrderedModel ordered(models::polygons::PolygonModel model, const OrderOptions& options = {});
 
+/// Whether a model has transparent polygons (models::is_transparent).
+bool has_transparent_polygons(const models::polygons::PolygonModel& model);
+
+/// An order for a model that is drawn by depth: first all opaque polygons in file order, without those that a later one
+/// repeats (models::polygons::distinct_polygons), then the transparent ones as `order_of` sorts them, to be blended
+/// over the opaque ones. `order_of` gets the model of the transparent polygons alone.
+OrderedModel opaque_first(const models::polygons::PolygonModel& model,
+    const std::function<OrderedModel(models::polygons::PolygonModel)>& order_of);
+
 struct CellSearchResult;
 
 /// How ordered_by() finds the lists of a model; as made here, as OrderMethod::Exact does.

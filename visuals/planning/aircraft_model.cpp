@@ -548,7 +548,7 @@ void add_moving_parts(AircraftModel& model, std::span<const MovingPartMesh> part
 
 void add_glass(AircraftModel& model, const models::polygons::PolygonModel& glass, draworder::DrawOrder order,
     std::vector<glm::vec3> normals) {
-    assert(model.progressive != nullptr && normals.size() == glass.corner_vertices.size());
+    assert(model.polygon_representation() > 0 && normals.size() == glass.corner_vertices.size());
     const models::polygons::PolygonModel drawn = closed(glass, normals);
     BufferBuilder maker(drawn, normals);
     maker.append(order.polygons());

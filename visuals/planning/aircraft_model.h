@@ -61,7 +61,7 @@ struct OpacityRun {
     float opacity = 1.0F;
 };
 
-/// The transparent polygons of a progressive mesh, in the model's index buffer as `order` lists them.
+/// The transparent polygons of a mesh, in the model's index buffer as `order` lists them.
 struct OrderedGlass {
     draworder::DrawOrder order;
     /// As AircraftModel::first_indices and AircraftModel::opacity_runs.
@@ -103,7 +103,8 @@ struct AircraftModel {
     scene::IndexRange turning{};
     /// Of the polygons of order.polygons(); empty where all are opaque.
     std::vector<OpacityRun> opacity_runs{};
-    /// With a progressive mesh: its transparent surfaces, which are blended over all others. All have polygon number 0.
+    /// With levels or a progressive mesh: the transparent surfaces of the finest mesh, which are blended over all
+    /// others. All have polygon number 0.
     std::optional<OrderedGlass> glass{};
     /// Of the progressive mesh; null where each vertex has one normal.
     std::shared_ptr<const refine::MeshCreases> creases = {};
@@ -166,8 +167,8 @@ struct MovingPartMesh {
 /// Adds moving parts to a model with a progressive mesh. Loading work.
 void add_moving_parts(AircraftModel& model, std::span<const MovingPartMesh> parts);
 
-/// Adds transparent polygons, in body axes, and their painting order to a model with a progressive mesh. `normals`: one
-/// for each corner. Loading work.
+/// Adds transparent polygons, in body axes, and their painting order to a model with meshes. `normals`: one for each
+/// corner. Loading work.
 void add_glass(AircraftModel& model, const models::polygons::PolygonModel& glass, draworder::DrawOrder order,
     std::vector<glm::vec3> normals);
 

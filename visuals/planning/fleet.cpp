@@ -216,18 +216,17 @@ void Fleet::choose_representation(PlacedAircraft& aircraft, const FrameView& vie
     last = aircraft.representation;
 }
 
-/// Chooses the ranges of an aircraft's index buffer that are drawn: of a refined mesh only its glass, of an absent
-/// aircraft none. Without painting orders the order of a model with glass has all that is opaque first
-/// (draworder::opaque_first).
+/// Chooses the ranges of an aircraft's index buffer that are drawn: of a mesh its level and its glass, of a refined one
+/// its glass only, of an absent aircraft none. Without painting orders the order of a model with glass has all that is
+/// opaque first (draworder::opaque_first).
 void Fleet::choose_ranges(PlacedAircraft& aircraft, const glm::dvec3& eye_in_body_m) {
     const AircraftModel& model = *aircraft.model;
     aircraft.ranges.clear();
     aircraft.list = {};
     if (aircraft.is_absent) { return; }
     if (is_mesh(aircraft)) {
-        if (!is_refined(aircraft)) {
-            aircraft.ranges.push_back(model.levels[aircraft.representation].range);
-        } else if (const auto& glass = model.glass) {
+        if (!is_refined(aircraft)) { aircraft.ranges.push_back(model.levels[aircraft.representation].range); }
+        if (const auto& glass = model.glass) {
             append_ranges(
                 {glass->order, glass->first_indices, glass->opacity_runs}, eye_in_body_m, walk_, aircraft.ranges);
         }

@@ -39,6 +39,15 @@ std::uint32_t mean_colour(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
     return mean;
 }
 
+/// For each material of a hierarchy whether it is transparent; empty where none of its faces is, or all are.
+std::vector<bool> transparent_materials(const refine::ProgressiveMeshData& parts) {
+    std::vector<bool> is_clear;
+    for (const models::Material& material : parts.materials) { is_clear.push_back(models::is_transparent(material)); }
+    const auto count = std::ranges::count_if(parts.face_materials, [&](auto material) { return is_clear[material]; });
+    const bool are_some = count > 0 && static_cast<std::size_t>(count) < parts.face_materials.size();
+    return are_some ? is_clear : std::vector<bool>();
+}
+
 } // namespace
 
 RefinedAircraft::RefinedAircraft(std::shared_ptr<const refine::ProgressiveMesh> mesh,
@@ -46,7 +55,9 @@ RefinedAircraft::RefinedAircraft(std::shared_ptr<const refine::ProgressiveMesh> 
     std::shared_ptr<const refine::MeshTextures> textures, std::shared_ptr<const refine::MeshCreases> creases)
     : refiner_(std::move(mesh), options, textures),
       textures_(shading.show_model == scene::ModelDisplay::None ? std::move(textures) : nullptr),
-      creases_(std::move(creases)), selector_(shading_rule_of(shading)),
+      creases_(std::move(creases)), is_left_out_(transparent_materials(refiner_.front().mesh().parts())),
+      selector_(shading_rule_of(shading)),
+      lights_corners_(shading.rule != scene::HybridRule::Paper && (textures_ || creases_)),
       shows_levels_(shading.show_model == scene::ModelDisplay::Levels) {}
 
 refine::RefinedFrame RefinedAircraft::update(const glm::dmat4& body_to_eye_world, const FrameView& view, bool first) {
@@ -87,11 +98,23 @@ scene::ModelVertex RefinedAircraft::drawn(std::uint32_t slot) const {
     return drawn;
 }
 
+/// The chart of a face; 0 without textures.
+std::uint32_t RefinedAircraft::chart_of(std::uint32_t face) const {
+    const std::vector<std::uint16_t>& charts = refiner_.front().mesh().parts().face_materials;
+    return textures_ && !charts.empty() ? charts[face] : 0;
+}
+
+/// The colour on a chart of a vertex whose node has another one.
+std::uint32_t RefinedAircraft::colour_on(std::uint32_t number, std::uint32_t colour_of_node) const {
+    const refine::ChartSurface& chart = textures_->charts[number];
+    return chart.texture != 0 || chart.is_plain ? chart.colour : colour_of_node;
+}
+
 /// Puts a slot's vertex on the picture of a chart.
 void RefinedAircraft::put_on_texture(scene::ModelVertex& vertex, std::uint32_t slot, std::uint32_t number) const {
     const refine::ChartSurface& chart = textures_->charts[number];
     vertex.texture = chart.texture;
-    if (chart.texture != 0 || chart.is_plain) { vertex.colour = chart.colour; }
+    vertex.colour = colour_on(number, vertex.colour);
     if (chart.texture == 0) { return; }
     vertex.on_texture = refiner_.place_on_picture(slot, number);
 }
@@ -129,7 +152,6 @@ void RefinedAircraft::follow_front() {
     front.take_dirty_vertices(ranges_);
     slot_count_ = front.vertices().size();
     vertices_.resize(slot_count_);
-    points_.resize(slot_count_);
     for (const refine::SlotRange& range : ranges_) {
         for (std::size_t slot = range.first; slot < range.end; ++slot) {
             scene::ModelVertex vertex = drawn(static_cast<std::uint32_t>(slot));
@@ -138,7 +160,46 @@ void RefinedAircraft::follow_front() {
                 put_on_texture(vertex, static_cast<std::uint32_t>(slot), textures_->places_of(node).front().chart);
             }
             vertices_[slot] = vertex;
-            points_[slot] = {vertex.position_m, vertex.normal, colour_sum(vertex.colour)};
+        }
+    }
+}
+
+/// The normal of a face at a crease; nothing where its corner has that of the slot's vertex.
+std::optional<glm::vec3> RefinedAircraft::crease_normal(
+    std::uint32_t slot, std::uint32_t face, std::size_t corner) const {
+    if (!creases_ || !creases_->is_creased[refiner_.front().node_at(slot)]) { return std::nullopt; }
+    constexpr float same_cosine = 0.9986F;
+    const glm::vec3 normal = refine::unpacked(creases_->corner_normals[face].at(corner));
+    return glm::dot(normal, vertices_[slot].normal) > same_cosine ? std::nullopt : std::optional(normal);
+}
+
+/// Makes the points at which light is computed: the front's vertices and, where lights_corners_, one for each corner
+/// that has another normal or colour than its vertex.
+void RefinedAircraft::make_points() {
+    points_.clear();
+    for (const scene::ModelVertex& vertex : std::span(vertices_).first(slot_count_)) {
+        points_.push_back({vertex.position_m, vertex.normal, colour_sum(vertex.colour)});
+    }
+    if (!lights_corners_) { return; }
+    const refine::SelectiveRefiner& front = refiner_.front();
+    corner_points_.assign(front.indices().begin(), front.indices().end());
+    for (std::size_t place = 0; 3 * place < corner_points_.size(); ++place) {
+        const auto corners = std::span(corner_points_).subspan(3 * place, 3);
+        if (corners[0] == corners[1]) {
+            continue; // a place without a triangle
+        }
+        const std::uint32_t face = front.face_at(place);
+        for (std::size_t k = 0; k < 3; ++k) {
+            shading::ShadingPoint point = points_[corners[k]];
+            const auto normal = crease_normal(corners[k], face, k);
+            const std::uint32_t of_slot = vertices_[corners[k]].colour;
+            const std::uint32_t colour =
+                textures_ ? colour_on(chart_of(face), front.vertices()[corners[k]].colour) : of_slot;
+            if (!normal && colour == of_slot) { continue; }
+            point.normal = normal.value_or(point.normal);
+            point.colour_sum = colour_sum(colour);
+            corners[k] = static_cast<std::uint32_t>(points_.size());
+            points_.push_back(point);
         }
     }
 }
@@ -167,9 +228,10 @@ void RefinedAircraft::shade(const glm::dvec3& eye_m, const shading::ShadingLight
     if (drawn_changed_) {
         follow_front();
         follow_labels();
+        make_points();
     }
     const shading::DynamicMesh mesh{.points = points_,
-        .indices = refiner_.front().indices(),
+        .indices = lights_corners_ ? std::span<const std::uint32_t>(corner_points_) : refiner_.front().indices(),
         .labels = labels_,
         .triangle_count = refiner_.front().face_count(),
         .centre_m = glm::vec3(refiner_.front().mesh().middle_m())};
@@ -197,12 +259,10 @@ void RefinedAircraft::write_flat(std::span<const std::uint32_t> corners) {
 /// A vertex of its own for a corner at a crease, with the normal that the face has there; else the vertex as it is.
 std::uint32_t RefinedAircraft::creased_vertex(
     std::uint32_t vertex, std::uint32_t slot, std::uint32_t face, std::size_t corner) {
-    if (!creases_ || !creases_->is_creased[refiner_.front().node_at(slot)]) { return vertex; }
-    constexpr float same_cosine = 0.9986F;
-    const glm::vec3 normal = refine::unpacked(creases_->corner_normals[face].at(corner));
-    if (glm::dot(normal, vertices_[vertex].normal) > same_cosine) { return vertex; }
+    const auto normal = crease_normal(slot, face, corner);
+    if (!normal) { return vertex; }
     scene::ModelVertex own = vertices_[vertex];
-    own.normal = normal;
+    own.normal = *normal;
     vertices_.push_back(own);
     return static_cast<std::uint32_t>(vertices_.size() - 1);
 }
@@ -211,7 +271,6 @@ void RefinedAircraft::write_indices() {
     const refine::SelectiveRefiner& front = refiner_.front();
     const auto shared = front.indices();
     const auto smooth = selector_.smooth();
-    const std::vector<std::uint16_t>& charts = front.mesh().parts().face_materials;
     if (textures_) { add_chart_vertices(); }
     indices_.clear();
     for (std::size_t place = 0; 3 * place < shared.size(); ++place) {
@@ -220,7 +279,8 @@ void RefinedAircraft::write_indices() {
             continue; // a place without a triangle
         }
         const std::uint32_t face = front.face_at(place);
-        const std::uint32_t chart = textures_ && !charts.empty() ? charts[face] : 0;
+        if (!is_left_out_.empty() && is_left_out_[front.mesh().parts().face_materials[face]]) { continue; }
+        const std::uint32_t chart = chart_of(face);
         const std::array<std::uint32_t, 3> corners{
             corner_vertex(slots[0], chart), corner_vertex(slots[1], chart), corner_vertex(slots[2], chart)};
         if (all_flat_ || (choosing_ && smooth[place] == 0)) {
@@ -232,16 +292,16 @@ void RefinedAircraft::write_indices() {
 }
 
 scene::RefinedDraw RefinedAircraft::draw() {
-    const bool all_smooth = !choosing_ && !all_flat_;
+    const bool is_front = !choosing_ && !all_flat_ && !textures_ && !creases_ && is_left_out_.empty();
     assert(!choosing_ || !front_changed_);
     if (drawn_changed_) {
         follow_front();
-        if (!all_smooth || textures_ || creases_) { write_indices(); }
+        if (!is_front) { write_indices(); }
     }
     drawn_changed_ = false;
     scene::RefinedDraw draw;
     draw.vertices = vertices_;
-    draw.indices = all_smooth && !textures_ && !creases_ ? refiner_.front().indices() : indices_;
+    draw.indices = is_front ? refiner_.front().indices() : indices_;
     return draw;
 }
 

@@ -14,6 +14,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -26,7 +27,8 @@ shading::ShadingRuleSettings shading_rule_of(const scene::ShadingSettings& setti
 /// mesh that have changed since the last frame are computed again.
 class RefinedAircraft {
 public:
-    /// The hierarchy is in body axes. `textures`: the pictures on it; `creases`: its edges; null: none.
+    /// The hierarchy is in body axes. Its transparent faces are not drawn, unless all are: AircraftModel::glass shows
+    /// them. `textures`: the pictures on it; `creases`: its edges; null: none.
     RefinedAircraft(std::shared_ptr<const refine::ProgressiveMesh> mesh, const refine::ViewRefinerOptions& options,
         const scene::ShadingSettings& shading, std::shared_ptr<const refine::MeshTextures> textures = {},
         std::shared_ptr<const refine::MeshCreases> creases = {});
@@ -41,7 +43,8 @@ public:
     int triangles() const { return static_cast<int>(refiner_.front().face_count()); }
 
     /// Chooses which triangles of the last update() are smooth: exactly `smooth`, from 0 to triangles(). Eye and light
-    /// are in body axes.
+    /// are in body axes. The rule Error lights each triangle's corners with the normals and colours that draw() gives
+    /// them, so that an edge in sight costs no smooth triangle; the rule Paper lights vertices, as printed.
     void shade(const glm::dvec3& eye_m, const shading::ShadingLight& light, int smooth);
 
     /// The mesh of the last update(), shaded by the last shade(); all smooth before the first shade(). Corners share
@@ -52,10 +55,14 @@ public:
 
 private:
     scene::ModelVertex drawn(std::uint32_t slot) const;
+    std::uint32_t chart_of(std::uint32_t face) const;
+    std::uint32_t colour_on(std::uint32_t number, std::uint32_t colour_of_node) const;
     void put_on_texture(scene::ModelVertex& vertex, std::uint32_t slot, std::uint32_t number) const;
     void add_chart_vertices();
     std::uint32_t corner_vertex(std::uint32_t slot, std::uint32_t chart) const;
     void follow_front();
+    std::optional<glm::vec3> crease_normal(std::uint32_t slot, std::uint32_t face, std::size_t corner) const;
+    void make_points();
     void follow_labels();
     void write_indices();
     void write_flat(std::span<const std::uint32_t> corners);
@@ -65,7 +72,11 @@ private:
     /// Null where none are shown.
     std::shared_ptr<const refine::MeshTextures> textures_;
     std::shared_ptr<const refine::MeshCreases> creases_;
+    /// For each material of the hierarchy whether its faces are left out; empty: none.
+    std::vector<bool> is_left_out_;
     shading::DynamicMeshSelector selector_;
+    /// Whether the selector lights the corners of triangles one by one; else vertices.
+    bool lights_corners_;
     bool shows_levels_;
     /// Whether some triangles are smooth and some are not.
     bool choosing_ = false;
@@ -81,8 +92,10 @@ private:
     /// For each slot its vertex on the second chart of its node; with textures only.
     std::vector<std::uint32_t> chart_vertices_;
     std::vector<scene::ModelVertex> vertices_;
-    /// One for each slot.
+    /// One for each slot, then those of corners that differ from their slot's vertex.
     std::vector<shading::ShadingPoint> points_;
+    /// For each corner of the front's indices its point; with lights_corners_ only.
+    std::vector<std::uint32_t> corner_points_;
     /// One for each place of the front's indices.
     std::vector<std::uint32_t> labels_;
     std::vector<std::uint32_t> indices_;

@@ -655,7 +655,7 @@ private:
             while (end < ranges.size() && ranges[end].opacity == run.opacity) { ++end; }
             if (wanted != Ranges::All && is_glass(run) != (wanted == Ranges::Glass)) { continue; }
             scene::AircraftDraw draw = draw_of(aircraft, ranges.subspan(first, end - first));
-            if (is_refined(aircraft)) { draw.first_smooth = frame_->smooth.turning_word_index(); }
+            if (is_mesh(aircraft) && is_glass(run)) { draw.first_smooth = frame_->smooth.turning_word_index(); }
             steps_.add(draw, depth, run.opacity);
         }
     }

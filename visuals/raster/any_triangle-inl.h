@@ -17,6 +17,7 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <hwy/cache_control.h>
 #include <hwy/highway.h>
 
 HWY_BEFORE_NAMESPACE();
@@ -491,6 +492,14 @@ HWY_INLINE std::uint16_t samples_showing(std::uint32_t name, const std::uint32_t
     return static_cast<std::uint16_t>(bits);
 }
 
+/// Calls the planes of a triangle from memory, if there is one of that number.
+HWY_INLINE void prefetch_surface(std::span<const TileTriangle> triangles, std::size_t number) {
+    constexpr std::size_t cache_line = 64;
+    if (number >= triangles.size() || triangles[number].surface == nullptr) { return; }
+    const auto* const surface = reinterpret_cast<const std::uint8_t*>(triangles[number].surface);
+    for (std::size_t at = 0; at < sizeof(SurfacePlanes); at += cache_line) { hwy::Prefetch(surface + at); }
+}
+
 /// Makes what is seen of a triangle of a group its coverage.
 HWY_INLINE void cover_seen(const TileTriangle& one, std::uint32_t name, const TileJob& job, TileBuffer& buffer) {
     const TileBox box(*one.triangle, job);
@@ -510,6 +519,19 @@ HWY_INLINE void cover_seen(const TileTriangle& one, std::uint32_t name, const Ti
         const int blocks = first <= last ? (last - first) / block_px + 1 : 0;
         buffer.coverage.rows[static_cast<std::size_t>(row)] = {first, last, blocks};
     }
+}
+
+/// Makes the free samples that show a textured triangle of a group fragments, and covers them.
+HWY_INLINE void take_seen(const TileTriangle& one, std::uint32_t name, const TileJob& job, TileBuffer& buffer) {
+    const TileBox box(*one.triangle, job);
+    buffer.fragments.count = 0;
+    for (int row = box.first_row; row <= box.last_row; ++row) {
+        for (int column = box.left; column <= box.right; ++column) {
+            const auto pixel = static_cast<std::size_t>(row * tile_width + column);
+            take_fragment(pixel, samples_showing(name, buffer.seen.data() + pixel * samples), buffer);
+        }
+    }
+    note_full_rows(job, box.first_row, box.last_row, buffer);
 }
 
 /// Triangles first .. end - 1 of the job are a group.
@@ -532,8 +554,15 @@ HWY_INLINE void paint_group(
     end_record(transparent_before, buffer);
     // Each of its samples shows one triangle: they are coloured in any order.
     for (std::size_t i = 0; i < group.size(); ++i) {
-        cover_seen(group[i], static_cast<std::uint32_t>(i + 1), job, buffer);
-        fill(group[i], job, buffer);
+        const auto name = static_cast<std::uint32_t>(i + 1);
+        if (group[i].surface != nullptr) {
+            prefetch_surface(group, i + 2);
+            take_seen(group[i], name, job, buffer);
+            add_fragments(group[i], job, buffer);
+        } else {
+            cover_seen(group[i], name, job, buffer);
+            fill(group[i], job, buffer);
+        }
     }
 }
 

@@ -12,12 +12,14 @@
 #include "visuals/raster/gouraud_triangle-inl.h"
 #include "visuals/raster/mesh_texture.h"
 #include "visuals/raster/strip_coverage-inl.h"
+#include "visuals/raster/textured_triangle-inl.h"
 
 #include <algorithm>
 #include <array>
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <hwy/cache_control.h>
 #include <hwy/highway.h>
 
 HWY_BEFORE_NAMESPACE();
@@ -26,7 +28,7 @@ namespace octant::visuals::raster {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-constexpr std::size_t fragments_at_once = 8;
+constexpr std::size_t fragments_at_once = PlacedFragments::at_once;
 using Fragment = hn::CappedTag<float, fragments_at_once>;
 using FragmentWhole = hn::RebindToSigned<Fragment>;
 using FragmentBits = hn::RebindToUnsigned<Fragment>;
@@ -91,6 +93,33 @@ struct TexelPair {
     }
 };
 
+/// The texels of a row at the left and at the right ones of pairs.
+using TexelsOfRow = std::array<hn::Vec<FragmentBits>, 2>;
+
+HWY_INLINE TexelsOfRow load_row(const std::uint32_t* texels, FragmentWholes row, const TexelPair& pair) {
+    return {hn::GatherIndex(FragmentBits(), texels, hn::Add(row, pair.low)),
+        hn::GatherIndex(FragmentBits(), texels, hn::Add(row, pair.high))};
+}
+
+#if HWY_ARCH_X86 && HWY_TARGET <= HWY_AVX2
+
+/// The same where all pairs are adjacent.
+HWY_INLINE TexelsOfRow load_adjacent(const std::uint32_t* texels, FragmentWholes row, const TexelPair& pair) {
+    const TexelPairs pairs(texels, hn::Add(row, pair.low).raw);
+    TexelsOfRow made;
+    made[0].raw = pairs.left;
+    made[1].raw = pairs.right;
+    return made;
+}
+
+#else
+
+HWY_INLINE TexelsOfRow load_adjacent(const std::uint32_t* texels, FragmentWholes row, const TexelPair& pair) {
+    return load_row(texels, row, pair);
+}
+
+#endif
+
 HWY_INLINE MeshTexels filter_level(const MeshTexture& from, std::size_t number, FragmentReal u, FragmentReal v) {
     const MeshTexture::Level& level = from.levels[number];
     const TexelPair x(u, level.width, from.texture.wrap_u);
@@ -98,10 +127,12 @@ HWY_INLINE MeshTexels filter_level(const MeshTexture& from, std::size_t number, 
     const auto stride = hn::Set(FragmentWhole(), level.width);
     const auto upper_row = hn::Mul(y.low, stride);
     const auto lower_row = hn::Mul(y.high, stride);
-    const auto load = [&](FragmentWholes row, FragmentWholes column)
-                          HWY_ATTR { return hn::GatherIndex(FragmentBits(), level.texels, hn::Add(row, column)); };
-    const std::array texels{
-        load(upper_row, x.low), load(upper_row, x.high), load(lower_row, x.low), load(lower_row, x.high)};
+    const bool is_adjacent = hn::AllTrue(FragmentWhole(), hn::Gt(x.high, x.low)); // else some lie at the rim
+    const TexelsOfRow upper =
+        is_adjacent ? load_adjacent(level.texels, upper_row, x) : load_row(level.texels, upper_row, x);
+    const TexelsOfRow lower =
+        is_adjacent ? load_adjacent(level.texels, lower_row, x) : load_row(level.texels, lower_row, x);
+    const std::array texels{upper[0], upper[1], lower[0], lower[1]};
     const auto right = in_both_halves(hn::ConvertTo(FragmentWhole(), hn::Mul(x.high_share, each(65536.0F)))); // 2^-16
     const auto down = in_both_halves(hn::ConvertTo(FragmentWhole(), hn::Mul(y.high_share, each(128.0F))));
     const auto up = hn::Sub(hn::Set(FragmentHalves(), 128), down);
@@ -151,6 +182,22 @@ struct MeshFootprint {
     FragmentReal coarse_share; ///< of the next level
     FragmentReal places;       ///< 1, 2 or 3
     TextureStep reach;         ///< to the outermost place
+
+    /// Of placed fragments, from number `i` on.
+    HWY_INLINE MeshFootprint(const PlacedFragments& placed, std::size_t i)
+        : level(hn::Load(FragmentWhole(), placed.level.data() + i)),
+          coarse_share(hn::Load(Fragment(), placed.coarse_share.data() + i)),
+          places(hn::Load(Fragment(), placed.places.data() + i)), reach{hn::Load(Fragment(), placed.reach_u.data() + i),
+                                                                      hn::Load(Fragment(), placed.reach_v.data() + i)} {
+    }
+
+    HWY_INLINE void store(PlacedFragments& placed, std::size_t i) const {
+        hn::Store(level, FragmentWhole(), placed.level.data() + i);
+        hn::Store(coarse_share, Fragment(), placed.coarse_share.data() + i);
+        hn::Store(places, Fragment(), placed.places.data() + i);
+        hn::Store(reach.u, Fragment(), placed.reach_u.data() + i);
+        hn::Store(reach.v, Fragment(), placed.reach_v.data() + i);
+    }
 
     HWY_INLINE MeshFootprint(const MeshTexture& from, const TextureStep& across, const TextureStep& down) {
         const auto one = each(1.0F);
@@ -315,44 +362,76 @@ private:
     FragmentReal w_;
 };
 
-/// The texture at as many pixels as a register holds, full = 65,535.
-HWY_INLINE MeshTexels texels_of(const SurfacePlanes& planes, const MeshValues& values) {
+/// Finds what eight pixels, by their numbers in the tile, take of the texture and of the light.
+HWY_INLINE void place_fragments(
+    const SurfacePlanes& planes, const glm::ivec2& tile_px, const std::uint16_t* pixels, PlacedFragments& placed) {
     using Value = SurfacePlanes::Value;
-    const auto u = values.at(Value::U);
-    const auto v = values.at(Value::V);
-    const auto u_steps = values.steps(Value::U, u);
-    const auto v_steps = values.steps(Value::V, v);
-    const MeshFootprint footprint(*planes.texture, {u_steps[0], v_steps[0]}, {u_steps[1], v_steps[1]});
-    return sampled(*planes.texture, footprint, u, v).changed([](auto texel) HWY_ATTR {
-        return hn::Add(hn::Add(texel, texel), hn::ShiftRight<7>(texel)); // of 32,640
-    });
+    const FragmentBits bits;
+    for (std::size_t i = 0; i < fragments_at_once; i += hn::Lanes(Fragment())) {
+        const MeshValues values(planes, tile_px, pixels + i);
+        const auto u = values.at(Value::U);
+        const auto v = values.at(Value::V);
+        const auto u_steps = values.steps(Value::U, u);
+        const auto v_steps = values.steps(Value::V, v);
+        MeshFootprint(*planes.texture, {u_steps[0], v_steps[0]}, {u_steps[1], v_steps[1]}).store(placed, i);
+        hn::Store(u, Fragment(), placed.u.data() + i);
+        hn::Store(v, Fragment(), placed.v.data() + i);
+        const auto level = [&](Value value) HWY_ATTR { // 1/128
+            return hn::BitCast(bits, hn::ConvertTo(FragmentWhole(), hn::Mul(values.at(value), each(128.0F))));
+        };
+        hn::Store(
+            hn::Or(level(Value::Red), hn::ShiftLeft<16>(level(Value::Blue))), bits, placed.red_and_blue.data() + i);
+        hn::Store(level(Value::Green), bits, placed.green.data() + i);
+        hn::Store(hn::ConvertTo(FragmentWhole(), hn::Mul(values.at(Value::HazeShare), each(65535.0F))), FragmentWhole(),
+            placed.haze_share.data() + i);
+    }
 }
 
-/// Shades eight pixels, by their numbers in the tile.
-HWY_INLINE void shade_fragments(
-    const SurfacePlanes& planes, const glm::ivec2& tile_px, const std::uint16_t* pixels, ShadedFragments& shaded) {
-    using Value = SurfacePlanes::Value;
+/// Calls the texels of placed fragments from memory: those at their places in the level of the first one.
+HWY_INLINE void prefetch_texels(const MeshTexture& from, const PlacedFragments& placed) {
+    constexpr std::int32_t in_cache = 64 * 64; // texels of a level that need no call
+    const MeshTexture::Level& level = from.levels[static_cast<std::size_t>(placed.level[0])];
+    const std::int32_t count = level.width * level.height;
+    if (count <= in_cache) { return; }
+    const auto texel = [](FragmentReal place, std::int32_t size) HWY_ATTR {
+        const auto within = hn::Mul(hn::Sub(place, hn::Floor(place)), each(static_cast<float>(size)));
+        const auto left = hn::ConvertTo(FragmentWhole(), hn::Max(hn::Sub(within, each(0.5F)), hn::Zero(Fragment())));
+        return hn::Min(hn::Max(left, hn::Zero(FragmentWhole())), hn::Set(FragmentWhole(), size - 1));
+    };
+    for (std::size_t i = 0; i < fragments_at_once; i += hn::Lanes(Fragment())) {
+        const auto x = texel(hn::Load(Fragment(), placed.u.data() + i), level.width);
+        const auto y = texel(hn::Load(Fragment(), placed.v.data() + i), level.height);
+        alignas(32) std::array<std::int32_t, fragments_at_once> numbers;
+        hn::Store(hn::Add(hn::Mul(y, hn::Set(FragmentWhole(), level.width)), x), FragmentWhole(), numbers.data());
+        for (std::size_t k = 0; k < hn::Lanes(Fragment()); ++k) {
+            hwy::Prefetch(level.texels + numbers[k]);
+            hwy::Prefetch(level.texels + std::min(numbers[k] + level.width, count - 1));
+        }
+    }
+}
+
+/// Shades placed fragments of a triangle.
+HWY_INLINE void shade_fragments(const SurfacePlanes& planes, const PlacedFragments& placed, ShadedFragments& shaded) {
     const FragmentHalves halves;
     const FragmentBits bits;
     const auto low_half = hn::Set(bits, 0xffffU);
     for (std::size_t i = 0; i < fragments_at_once; i += hn::Lanes(Fragment())) {
-        const MeshValues values(planes, tile_px, pixels + i);
-        const MeshTexels texel = texels_of(planes, values);
-        const auto level = [&](Value value) HWY_ATTR { // 1/128
-            return hn::BitCast(bits, hn::ConvertTo(FragmentWhole(), hn::Mul(values.at(value), each(128.0F))));
-        };
-        const auto share =
-            in_both_halves(hn::ConvertTo(FragmentWhole(), hn::Mul(values.at(Value::HazeShare), each(65535.0F))));
+        const MeshTexels texel = sampled(*planes.texture, MeshFootprint(placed, i),
+            hn::Load(Fragment(), placed.u.data() + i), hn::Load(Fragment(), placed.v.data() + i))
+                                     .changed([](auto one) HWY_ATTR {
+                                         return hn::Add(hn::Add(one, one), hn::ShiftRight<7>(one)); // of 32,640
+                                     });
+        const auto share = in_both_halves(hn::Load(FragmentWhole(), placed.haze_share.data() + i));
         const auto most = hn::MulHigh(hn::Set(halves, 255 * 128), hn::Not(share));
         const auto seen = [&](auto own, auto under_light, std::uint32_t haze) HWY_ATTR {
             const auto lit = hn::Min(hn::MulHigh(hn::BitCast(halves, under_light), own), most);
             const auto of_haze = hn::MulHigh(hn::BitCast(halves, hn::Set(bits, haze)), share);
             return hn::BitCast(bits, hn::ShiftRight<3>(hn::Add(hn::Add(lit, of_haze), hn::Set(halves, 4)))); // 1/16
         };
-        const auto light = hn::Or(level(Value::Red), hn::ShiftLeft<16>(level(Value::Blue)));
         const auto& haze = planes.haze;
-        const auto red_and_blue = seen(texel.red_and_blue, light, haze[0] | std::uint32_t{haze[2]} << 16U);
-        const auto green = seen(texel.green_and_alpha, level(Value::Green), haze[1]);
+        const auto red_and_blue = seen(texel.red_and_blue, hn::Load(bits, placed.red_and_blue.data() + i),
+            haze[0] | std::uint32_t{haze[2]} << 16U);
+        const auto green = seen(texel.green_and_alpha, hn::Load(bits, placed.green.data() + i), haze[1]);
         const auto green_and_alpha = hn::BitCast(bits, texel.green_and_alpha);
         hn::Store(red_and_blue, bits, shaded.red_and_blue.data() + i);
         hn::Store(hn::And(green, low_half), bits, shaded.green.data() + i);
@@ -364,35 +443,58 @@ HWY_INLINE void shade_fragments(
 
 // -- Fragments of a triangle.
 
-/// Calls visit(number of the pixel, its samples, colour, alpha) for each of the tile's fragments.
+/// Places eight fragments of a triangle, from number `first` on.
+HWY_INLINE void place_fragments(const TileTriangle& one, const TileJob& job, const TileFragments& fragments,
+    std::size_t first, PlacedFragments& placed) {
+    place_fragments(*one.surface, job.first_px, fragments.pixels.data() + first, placed);
+    placed.triangle = &one;
+    placed.count = std::min(fragments.count - first, fragments_at_once);
+    std::copy_n(fragments.pixels.data() + first, fragments_at_once, placed.pixels.data());
+    std::copy_n(fragments.samples.data() + first, fragments_at_once, placed.samples.data());
+}
+
+/// Repeats the last pixel up to a whole number of registers.
+HWY_INLINE void fill_up(TileFragments& fragments) {
+    std::fill_n(fragments.pixels.begin() + static_cast<std::ptrdiff_t>(fragments.count), fragments_at_once - 1,
+        fragments.pixels[fragments.count - 1]);
+}
+
+/// Calls visit(number of the pixel, its samples, colour, alpha) for each of some placed fragments.
 template <class Visit>
-HWY_INLINE void for_each_fragment(
-    const TileTriangle& one, const TileJob& job, TileFragments& fragments, const Visit& visit) {
-    const std::size_t count = fragments.count;
-    if (count == 0) { return; }
-    // The last pixel again up to a whole number of registers.
-    std::fill_n(fragments.pixels.begin() + static_cast<std::ptrdiff_t>(count), fragments_at_once - 1,
-        fragments.pixels[count - 1]);
+HWY_INLINE void shade_placed(const PlacedFragments& placed, const TileJob& job, const Visit& visit) {
     ShadedFragments shaded;
-    for (std::size_t first = 0; first < count; first += fragments_at_once) {
-        shade_fragments(*one.surface, job.first_px, fragments.pixels.data() + first, shaded);
-        const std::size_t end = std::min(count - first, fragments_at_once);
-        for (std::size_t i = 0; i < end; ++i) {
-            const std::uint16_t pixel = fragments.pixels[first + i];
-            PixelColour colour = shaded.colour(i);
-            if (one.triangle->fill == Fill::Lit) {
-                colour = lit_colour_of(
-                    one, job, job.first_px + glm::ivec2(pixel % tile_width, pixel / tile_width), shaded.texel(i));
-            }
-            visit(std::size_t{pixel}, std::uint32_t{fragments.samples[first + i]}, colour, shaded.alpha[i]);
+    const TileTriangle& one = *placed.triangle;
+    shade_fragments(*one.surface, placed, shaded);
+    for (std::size_t i = 0; i < placed.count; ++i) {
+        const std::uint16_t pixel = placed.pixels[i];
+        PixelColour colour = shaded.colour(i);
+        if (one.triangle->fill == Fill::Lit) {
+            colour = lit_colour_of(
+                one, job, job.first_px + glm::ivec2(pixel % tile_width, pixel / tile_width), shaded.texel(i));
         }
+        visit(std::size_t{pixel}, std::uint32_t{placed.samples[i]}, colour, shaded.alpha[i]);
     }
 }
 
-/// Adds the colours of fragments for their samples.
-HWY_INLINE void add_fragments(const TileTriangle& one, const TileJob& job, TileBuffer& buffer) {
+/// The same for each of the tile's fragments, which are of one triangle.
+template <class Visit>
+HWY_INLINE void for_each_fragment(
+    const TileTriangle& one, const TileJob& job, TileFragments& fragments, const Visit& visit) {
+    if (fragments.count == 0) { return; }
+    fill_up(fragments);
+    PlacedFragments placed;
+    for (std::size_t first = 0; first < fragments.count; first += fragments_at_once) {
+        place_fragments(one, job, fragments, first, placed);
+        shade_placed(placed, job, visit);
+    }
+}
+
+/// Adds the colours of fragments that wait for their samples.
+HWY_NOINLINE void add_waiting(const TileJob& job, TileBuffer& buffer) {
+    PlacedFragments& waiting = buffer.placed[buffer.waiting];
+    if (waiting.count == 0) { return; }
     const bool counts_other = job.detail_texture != nullptr;
-    for_each_fragment(one, job, buffer.fragments,
+    shade_placed(waiting, job,
         [&](std::size_t pixel, std::uint32_t samples, const PixelColour& colour, std::uint32_t /*alpha*/) HWY_ATTR {
             const auto count = static_cast<std::uint32_t>(std::popcount(samples));
             for (std::size_t k = 0; k < 3; ++k) {
@@ -401,6 +503,21 @@ HWY_INLINE void add_fragments(const TileTriangle& one, const TileJob& job, TileB
             }
             if (counts_other) { buffer.sums[3][pixel] = static_cast<std::uint16_t>(buffer.sums[3][pixel] + count); }
         });
+    waiting.count = 0;
+}
+
+/// Adds the colours of fragments; the last ones wait for add_waiting(). Sums do not depend on the order.
+HWY_INLINE void add_fragments(const TileTriangle& one, const TileJob& job, TileBuffer& buffer) {
+    TileFragments& fragments = buffer.fragments;
+    if (fragments.count == 0) { return; }
+    fill_up(fragments);
+    for (std::size_t first = 0; first < fragments.count; first += fragments_at_once) {
+        PlacedFragments& next = buffer.placed[1 - buffer.waiting];
+        place_fragments(one, job, fragments, first, next);
+        prefetch_texels(*one.surface->texture, next);
+        add_waiting(job, buffer);
+        buffer.waiting = 1 - buffer.waiting;
+    }
 }
 
 /// Makes the pixels of a part of a strip fragments that have fresh samples.
@@ -414,21 +531,29 @@ HWY_INLINE void add_strip_part(std::size_t first_pixel, hn::Vec<Strip> fresh, Ti
     fragments.count += hn::CountTrue(Strip(), is_fresh);
 }
 
+/// Makes the free ones of a pixel's samples a fragment, and covers them.
+HWY_INLINE void take_fragment(std::size_t pixel, std::uint32_t samples, TileBuffer& buffer) {
+    const std::uint32_t before = buffer.covered[pixel];
+    const std::uint32_t fresh = samples & ~before;
+    buffer.fragments.add(pixel, fresh);
+    buffer.fragments.count -= fresh == 0 ? 1 : 0;
+    buffer.covered[pixel] = static_cast<std::uint16_t>(before | fresh);
+    buffer.full[pixel / tile_width] |= std::uint64_t{(before | fresh) == 0xffffU} << pixel % tile_width;
+}
+
+HWY_INLINE void note_full_rows(const TileJob& job, int first_row, int last_row, TileBuffer& buffer) {
+    for (int row = first_row; row <= last_row; ++row) {
+        const bool is_full = (buffer.full[static_cast<std::size_t>(row)] & job.full_row()) == job.full_row();
+        buffer.full_rows |= std::uint32_t{is_full} << row;
+    }
+}
+
 /// Makes the free samples of TileBuffer::masks fragments, and covers them.
 HWY_INLINE void take_fragments(const TileJob& job, TileBuffer& buffer) {
     buffer.fragments.count = 0;
-    for_each_covered(job, buffer, [&](const glm::ivec2& at, std::size_t pixel, std::uint32_t mask) HWY_ATTR {
-        const std::uint32_t before = buffer.covered[pixel];
-        const std::uint32_t fresh = mask & ~before;
-        if (fresh == 0) { return; }
-        buffer.fragments.add(pixel, fresh);
-        buffer.covered[pixel] = static_cast<std::uint16_t>(before | fresh);
-        if ((before | fresh) == 0xffffU) {
-            std::uint64_t& full = buffer.full[static_cast<std::size_t>(at.y)];
-            full |= std::uint64_t{1} << at.x;
-            buffer.full_rows |= std::uint32_t{(full & job.full_row()) == job.full_row()} << at.y;
-        }
-    });
+    for_each_covered(job, buffer,
+        [&](const glm::ivec2&, std::size_t pixel, std::uint32_t mask) HWY_ATTR { take_fragment(pixel, mask, buffer); });
+    note_full_rows(job, buffer.coverage.first_row, buffer.coverage.last_row, buffer);
 }
 
 /// Paints a textured triangle without depth, holes and clip planes.
@@ -470,13 +595,14 @@ HWY_NOINLINE void paint_textured_mesh(
 HWY_INLINE void remove_holes(const SurfacePlanes& planes, const glm::ivec2& tile_px, TileFragments& fragments) {
     const std::size_t count = fragments.count;
     if (count == 0) { return; }
-    std::fill_n(fragments.pixels.begin() + static_cast<std::ptrdiff_t>(count), fragments_at_once - 1,
-        fragments.pixels[count - 1]);
+    fill_up(fragments);
     const std::uint32_t threshold = planes.texture->threshold;
     fragments.count = 0;
+    PlacedFragments placed;
     ShadedFragments shaded;
     for (std::size_t first = 0; first < count; first += fragments_at_once) {
-        shade_fragments(planes, tile_px, fragments.pixels.data() + first, shaded);
+        place_fragments(planes, tile_px, fragments.pixels.data() + first, placed);
+        shade_fragments(planes, placed, shaded);
         for (std::size_t i = 0; i < std::min(count - first, fragments_at_once); ++i) {
             if (shaded.alpha[i] < threshold) { continue; }
             fragments.pixels[fragments.count] = fragments.pixels[first + i];

@@ -72,6 +72,40 @@ struct BilinearWeights {
     }
 };
 
+#if HWY_ARCH_X86 && HWY_TARGET <= HWY_AVX2
+
+/// Eight texels by their numbers, and those right of them: both are loaded at once. One by one they come faster than by
+/// the processor's own gathering.
+struct TexelPairs {
+    __m256i left;
+    __m256i right;
+
+    HWY_INLINE TexelPairs(const std::uint32_t* from, __m256i numbers) {
+        const __m128i low = _mm256_castsi256_si128(numbers);
+        const __m128i high = _mm256_extracti128_si256(numbers, 1);
+        // The first two of each four, then the others.
+        const __m256 front = texels_of(from, _mm_cvtsi128_si64(low), _mm_cvtsi128_si64(high));
+        const __m256 back = texels_of(from, _mm_extract_epi64(low, 1), _mm_extract_epi64(high, 1));
+        left = _mm256_castps_si256(_mm256_shuffle_ps(front, back, 0x88));
+        right = _mm256_castps_si256(_mm256_shuffle_ps(front, back, 0xdd));
+    }
+
+private:
+    /// By two numbers of 32 bits each.
+    static HWY_INLINE __m256 texels_of(const std::uint32_t* from, std::int64_t low, std::int64_t high) {
+        return _mm256_set_m128(
+            texels_of(from, static_cast<std::uint64_t>(high)), texels_of(from, static_cast<std::uint64_t>(low)));
+    }
+
+    static HWY_INLINE __m128 texels_of(const std::uint32_t* from, std::uint64_t two) {
+        const auto* const first = reinterpret_cast<const __m128i*>(from + (two & 0xffffffff));
+        const auto* const second = reinterpret_cast<const __m64*>(from + (two >> 32U));
+        return _mm_loadh_pi(_mm_castsi128_ps(_mm_loadl_epi64(first)), second);
+    }
+};
+
+#endif
+
 /// Access to the texels of a level.
 struct TexelGrid {
     const std::uint32_t* texels;
@@ -101,30 +135,12 @@ struct TexelQuads {
 
 #if HWY_TARGET == HWY_AVX2
 
-    /// Texels by their numbers, and those right of them: both are loaded at once. One by one they come faster than by
-    /// the processor's own gathering.
+    /// Texels by their numbers, and those right of them: both are loaded at once.
     static HWY_INLINE void load_neighbours(
         const std::uint32_t* from, TexelPlaces number, hn::Vec<Texels>& left_ones, hn::Vec<Texels>& right_ones) {
-        const __m128i low = _mm256_castsi256_si128(number.raw);
-        const __m128i high = _mm256_extracti128_si256(number.raw, 1);
-        // The first two of each four, then the others.
-        const __m256 front = texels_of(from, _mm_cvtsi128_si64(low), _mm_cvtsi128_si64(high));
-        const __m256 back = texels_of(from, _mm_extract_epi64(low, 1), _mm_extract_epi64(high, 1));
-        left_ones.raw = _mm256_castps_si256(_mm256_shuffle_ps(front, back, 0x88));
-        right_ones.raw = _mm256_castps_si256(_mm256_shuffle_ps(front, back, 0xdd));
-    }
-
-private:
-    /// By two numbers of 32 bits each.
-    static HWY_INLINE __m256 texels_of(const std::uint32_t* from, std::int64_t low, std::int64_t high) {
-        return _mm256_set_m128(
-            texels_of(from, static_cast<std::uint64_t>(high)), texels_of(from, static_cast<std::uint64_t>(low)));
-    }
-
-    static HWY_INLINE __m128 texels_of(const std::uint32_t* from, std::uint64_t two) {
-        const auto* const first = reinterpret_cast<const __m128i*>(from + (two & 0xffffffff));
-        const auto* const second = reinterpret_cast<const __m64*>(from + (two >> 32U));
-        return _mm_loadh_pi(_mm_castsi128_ps(_mm_loadl_epi64(first)), second);
+        const TexelPairs pairs(from, number.raw);
+        left_ones.raw = pairs.left;
+        right_ones.raw = pairs.right;
     }
 
 #else

@@ -110,6 +110,30 @@ struct TileFragments {
     }
 };
 
+/// Up to eight fragments of a triangle, with all that their colours need but texels.
+struct PlacedFragments {
+    static constexpr std::size_t at_once = 8;
+    template <class Value>
+    using Each = std::array<Value, at_once>;
+
+    const TileTriangle* triangle = nullptr;
+    std::size_t count = 0;
+    Each<std::uint16_t> pixels{};
+    Each<std::uint16_t> samples{};
+    // Places in the texture, and the footprints there: MeshFootprint.
+    alignas(32) Each<float> u{};
+    alignas(32) Each<float> v{};
+    alignas(32) Each<std::int32_t> level{};
+    alignas(32) Each<float> coarse_share{};
+    alignas(32) Each<float> places{};
+    alignas(32) Each<float> reach_u{};
+    alignas(32) Each<float> reach_v{};
+    // Of a white texel: red and, in the upper half, blue; green; 1/128 level. And what haze hides, 65,535 = all.
+    alignas(32) Each<std::uint32_t> red_and_blue{};
+    alignas(32) Each<std::uint32_t> green{};
+    alignas(32) Each<std::int32_t> haze_share{};
+};
+
 /// What a thread works on: sums of colours and masks of covered samples for the pixels of a tile. Rows of sums follow
 /// each other without gaps: a block of sixteen pixels may begin anywhere, and what it reads of the next row it writes
 /// back unchanged.
@@ -134,6 +158,10 @@ struct TileBuffer {
     alignas(64) std::array<std::uint16_t, mask_row * tile_height + padding> masks{};
     Coverage coverage{};
     TileFragments fragments; ///< of the textured triangle at hand
+    /// Fragments whose texels are on their way from memory, of any triangle (`waiting`; its count is 0 where none are),
+    /// and room for the next ones.
+    std::array<PlacedFragments, 2> placed;
+    std::size_t waiting = 0;
     // Of groups that are drawn by depth: a value for each sample.
     std::vector<float> depth;
     std::vector<std::uint32_t> seen; ///< place in the tile's list, from 1; 0: nothing

@@ -293,10 +293,7 @@ HWY_INLINE void prefetch_triangle(const TileJob& job, std::size_t end) {
     if (end >= ahead) {
         const auto* const from = reinterpret_cast<const std::uint8_t*>(job.triangles[end - ahead].triangle);
         for (std::size_t at = 0; at < sizeof(Triangle); at += cache_line) { hwy::Prefetch(from + at); }
-        const auto* const surface = reinterpret_cast<const std::uint8_t*>(job.triangles[end - ahead].surface);
-        if (surface != nullptr) {
-            for (std::size_t at = 0; at < sizeof(SurfacePlanes); at += cache_line) { hwy::Prefetch(surface + at); }
-        }
+        prefetch_surface(job.triangles, end - ahead);
     }
 }
 
@@ -472,6 +469,7 @@ void PaintTile(const TileJob& job, const SampleLanes& lanes, TileBuffer& buffer)
     } else {
         paint_near_to_far(job, lanes, buffer);
     }
+    add_waiting(job, buffer);
     if (job.detail_texture != nullptr) { add_detail_texture(job, buffer); }
     resolve(job, buffer);
     if (job.deep != nullptr) { resolve_deep(job, buffer); }

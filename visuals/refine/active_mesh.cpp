@@ -72,6 +72,20 @@ ActiveMesh active_mesh(const SelectiveRefiner& refiner) {
     return active;
 }
 
+models::TriangleMesh finest_mesh(const ProgressiveMesh& hierarchy) {
+    const ProgressiveMeshData& parts = hierarchy.parts();
+    models::TriangleMesh mesh;
+    mesh.name = parts.name;
+    for (std::uint32_t leaf = 0; leaf < hierarchy.leaf_count(); ++leaf) {
+        mesh.vertices_m.push_back(parts.origin_m + glm::dvec3(hierarchy.position_m(leaf)));
+        if (hierarchy.has_colours()) { mesh.colours.push_back(unpacked(hierarchy.packed_colour(leaf))); }
+    }
+    mesh.triangles = parts.faces;
+    mesh.triangle_materials.assign(parts.face_materials.begin(), parts.face_materials.end());
+    if (!parts.face_materials.empty()) { mesh.materials = parts.materials; }
+    return mesh;
+}
+
 namespace {
 
 /// The saturated colour at a place on the colour circle; `turn` counts whole turns, 0 is red.

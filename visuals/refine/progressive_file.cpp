@@ -115,6 +115,7 @@ private:
         for (const models::Material& material : parts.materials) {
             put_text(out, material.name);
             out.put(material.colour);
+            out.put(material.opacity);
         }
         return out.take();
     }
@@ -267,8 +268,8 @@ private:
 
     void read_head(BinaryReader& in) {
         const auto version = in.take<std::uint32_t>();
-        if (version != progressive_version) {
-            in.refuse_at(in.at() - 4, fmt::format("version {}", progressive_version), std::to_string(version));
+        if (version < 1 || version > progressive_version) {
+            in.refuse_at(in.at() - 4, fmt::format("version 1 to {}", progressive_version), std::to_string(version));
         }
         head_.file_bytes = in.take<std::uint64_t>();
         head_.leaves = in.take<std::uint32_t>();
@@ -283,6 +284,8 @@ private:
             models::Material material;
             material.name = take_text(in);
             material.colour = in.take<glm::vec3>();
+            if (version > 1) { material.opacity = in.take<float>(); }
+            in.check(material.opacity >= 0.0F && material.opacity <= 1.0F, "an opacity of 0 to 1");
             materials_.push_back(material);
         }
         const bool fits = static_cast<std::uint64_t>(head_.roots) + head_.splits == head_.leaves;

@@ -12,7 +12,7 @@
 namespace octant::visuals::refine {
 
 // A progressive file is a mark and blocks, each of a byte count (32 bits), so many bytes and their hash (64 bits):
-//   head     version, length of the file, counts, flags, origin, name, materials
+//   head     version, length of the file, counts, flags, origin, name, materials (from version 2 on with opacity)
 //   base     roots with the number of leaves below each, faces of the base mesh
 //   splits   splits_per_block each, coarsest first
 //   numbers  of the original: one a leaf, one a face
@@ -20,7 +20,7 @@ namespace octant::visuals::refine {
 // split there stands for all leaves below it.
 
 inline constexpr std::string_view progressive_signature = "OCTPM\r\n\x1a";
-inline constexpr std::uint32_t progressive_version = 1;
+inline constexpr std::uint32_t progressive_version = 2;
 inline constexpr std::size_t splits_per_block = 512;
 inline constexpr std::size_t block_header_bytes = 12; ///< The bytes of a block's count and hash.
 
@@ -42,8 +42,8 @@ std::string progressive_bytes(const ProgressiveMesh& mesh);
 /// Writes progressive_bytes. Throws Error when the file cannot be written.
 void write_progressive(const std::filesystem::path& path, const ProgressiveMesh& mesh);
 
-/// Reads a file that write_progressive wrote. A whole file gives back the same hierarchy: the same nodes, and vertices
-/// and faces in the original's order.
+/// Reads a file that write_progressive wrote, or wrote in version 1. A whole file gives back the same hierarchy: the
+/// same nodes, and vertices and faces in the original's order.
 ///
 /// When fewer than all vertices are asked for, or the file was cut off (a note says so), the splits that were read make
 /// a coarser model: a hierarchy of its own whose original mesh is the one after those splits. No more than these splits

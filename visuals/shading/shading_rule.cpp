@@ -14,7 +14,7 @@
 // rest; within each group by perimeter, then by index. The first g are smooth.
 #include "visuals/shading/shading_rule.h"
 
-#include "visuals/shading/vertex_normals.h"
+#include "models/smooth_normals.h"
 
 #include <glm/geometric.hpp>
 
@@ -103,14 +103,14 @@ bool needs_reselection(const ViewAndLight& before, const ViewAndLight& now, cons
     ShadingLight turned = before.light;
     turned.to_light = now.light.to_light;
     if (turned != now.light ||
-        angle_rad(glm::dvec3(now.light.to_light), glm::dvec3(before.light.to_light)) > settings.reselect_rad) {
+        models::angle_rad(glm::dvec3(now.light.to_light), glm::dvec3(before.light.to_light)) > settings.reselect_rad) {
         return true;
     }
     const glm::dvec3 before_m = before.eye_m - centre_m;
     const glm::dvec3 now_m = now.eye_m - centre_m;
     const double farther_m = std::abs(glm::length(now_m) - glm::length(before_m));
     return farther_m > settings.reselect_distance * glm::length(before_m) ||
-           angle_rad(before_m, now_m) > settings.reselect_rad;
+           models::angle_rad(before_m, now_m) > settings.reselect_rad;
 }
 
 // Selection of the greatest keys by counting: one pass fills a histogram over the keys' top 12 bits, a scan from the

@@ -1,9 +1,5 @@
-// Corner normals by crease angle. Kim and Park's hybrid rendering model (2008) takes vertex normals for given; Gouraud
-// shading needs them, and a model file need not bring any.
-//
-// For each vertex, corners are connected where their faces share an edge at that vertex. A breadth of corners is
-// collected from each corner across those edges, as long as normals stay within the crease angle of the first one's,
-// and their face normals are averaged.
+// Corner normals by crease angle (models/smooth_normals.h). Kim and Park's hybrid rendering model (2008) takes vertex
+// normals for given; Gouraud shading needs them, and a model file need not bring any.
 //
 // Deviations: the paper counts 4 operations for a plain average of the faces around a vertex; here the average is
 // weighted by angles, and edges sharper than the crease angle stay sharp.
@@ -175,29 +171,6 @@ std::vector<glm::vec2> piece_texture_coordinates(
 
 namespace {
 
-constexpr int fixed = -1; ///< Stands for the pivot of faces that do not turn.
-/// The tolerance on cosines and on the length of a sum of normals.
-constexpr double same_direction = 1e-9;
-
-/// One corner of a face. A "place" is a vertex number; vertices at the same position share one.
-struct Corner {
-    std::uint32_t face = 0;
-    std::uint32_t place = 0;
-    std::uint32_t before = 0; ///< The place of the previous corner in the face.
-    std::uint32_t after = 0;  ///< The place of the next corner in the face.
-    double angle_rad = 0.0;   ///< The face's interior angle at this corner.
-};
-
-struct Face {
-    glm::dvec3 normal{0.0}; ///< A unit vector; zero where the face has no area.
-    int turns_with = fixed; ///< The index of the pivot that the face turns about.
-};
-
-struct Faces {
-    std::vector<Face> faces;
-    std::vector<Corner> corners; ///< Face after face.
-};
-
 /// For each vertex the lowest number of a vertex at exactly the same position.
 std::vector<std::uint32_t> places_of(std::span<const glm::dvec3> vertices_m) {
     std::vector<std::uint32_t> sorted(vertices_m.size());
@@ -212,139 +185,25 @@ std::vector<std::uint32_t> places_of(std::span<const glm::dvec3> vertices_m) {
     return places;
 }
 
-void add_corners(Faces& faces, std::span<const std::uint32_t> vertices, std::span<const std::uint32_t> places,
-    std::span<const glm::dvec3> vertices_m) {
-    const std::size_t count = vertices.size();
-    for (std::size_t i = 0; i < count; ++i) {
-        const std::uint32_t here = vertices[i];
-        const std::uint32_t before = vertices[(i + count - 1) % count];
-        const std::uint32_t after = vertices[(i + 1) % count];
-        faces.corners.push_back({.face = static_cast<std::uint32_t>(faces.faces.size()),
-            .place = places[here],
-            .before = places[before],
-            .after = places[after],
-            .angle_rad = angle_rad(vertices_m[before] - vertices_m[here], vertices_m[after] - vertices_m[here])});
-    }
-}
-
-/// All corners at one place, and which of them are neighbours across an edge.
-class Around {
-public:
-    explicit Around(const Faces& faces) : faces_(&faces) {}
-
-    /// Turns to another place. `corners` are the indices of all corners there, in ascending order.
-    void look_at(std::span<const std::uint32_t> corners) {
-        corners_ = corners;
-        neighbours_.assign(corners.size(), {});
-        edges_.clear();
-        for (std::uint32_t i = 0; i < corners.size(); ++i) {
-            edges_.push_back({corner(i).before, i, false});
-            edges_.push_back({corner(i).after, i, true});
-        }
-        std::ranges::sort(edges_, {}, &Edge::other_end);
-        for (std::size_t first = 0; first < edges_.size();) {
-            std::size_t end = first;
-            while (end < edges_.size() && edges_[end].other_end == edges_[first].other_end) { ++end; }
-            connect(std::span(edges_).subspan(first, end - first));
-            first = end;
-        }
-    }
-
-    /// The normal of one corner (by its index among those looked at). `min_cosine` is the cosine of the crease angle.
-    glm::vec3 normal_at(std::uint32_t start, double min_cosine) {
-        const Face& own = face(start);
-        if (own.normal == glm::dvec3(0.0)) { return glm::vec3(0.0F, 0.0F, 1.0F); }
-        reach(start, min_cosine);
-        // Summed in the order of corners, so that corners with the same faces get the same bits.
-        glm::dvec3 sum(0.0);
-        for (std::uint32_t i = 0; i < corners_.size(); ++i) {
-            sum += reached_[i] ? corner(i).angle_rad * face(i).normal : glm::dvec3(0.0);
-        }
-        const double length = glm::length(sum);
-        return glm::vec3(length > same_direction ? sum / length : own.normal);
-    }
-
-private:
-    struct Edge {
-        std::uint32_t other_end = 0;
-        std::uint32_t corner = 0;
-        bool leaves = false; ///< The face runs from this place to the other end, not towards it.
-    };
-
-    const Corner& corner(std::uint32_t i) const { return faces_->corners[corners_[i]]; }
-
-    const Face& face(std::uint32_t i) const { return faces_->faces[corner(i).face]; }
-
-    /// Makes neighbours of all corners whose faces run along one edge in opposite directions.
-    void connect(std::span<const Edge> same_edge) {
-        for (const Edge& leaving : same_edge) {
-            for (const Edge& coming : same_edge) {
-                if (leaving.leaves && !coming.leaves && leaving.corner != coming.corner) {
-                    neighbours_[leaving.corner].push_back(coming.corner);
-                    neighbours_[coming.corner].push_back(leaving.corner);
-                }
-            }
-        }
-    }
-
-    /// Marks the corners that share a smooth surface with `start`.
-    void reach(std::uint32_t start, double min_cosine) {
-        reached_.assign(corners_.size(), 0);
-        reached_[start] = 1;
-        waiting_.assign(1, start);
-        while (!waiting_.empty()) {
-            const std::uint32_t from = waiting_.back();
-            waiting_.pop_back();
-            for (const std::uint32_t to : neighbours_[from]) {
-                if (reached_[to] == 0 && face(to).turns_with == face(start).turns_with &&
-                    face(to).normal != glm::dvec3(0.0) && glm::dot(face(to).normal, face(start).normal) >= min_cosine) {
-                    reached_[to] = 1;
-                    waiting_.push_back(to);
-                }
-            }
-        }
-    }
-
-    const Faces* faces_;
-    std::span<const std::uint32_t> corners_;
-    std::vector<std::vector<std::uint32_t>> neighbours_;
-    std::vector<Edge> edges_;
-    std::vector<std::uint8_t> reached_;
-    std::vector<std::uint32_t> waiting_;
-};
-
-/// The normals of all corners: sorts the corners by place and looks at each place once.
-std::vector<glm::vec3> normals_of(const Faces& faces, double crease_rad) {
-    assert(crease_rad >= 0.0 && crease_rad <= pi);
-    std::vector<std::uint32_t> sorted(faces.corners.size());
-    std::iota(sorted.begin(), sorted.end(), 0U);
-    std::ranges::stable_sort(sorted, {}, [&](std::uint32_t c) { return faces.corners[c].place; });
-    std::vector<glm::vec3> normals(faces.corners.size());
-    Around around(faces);
-    for (std::size_t first = 0; first < sorted.size();) {
-        std::size_t end = first;
-        while (end < sorted.size() && faces.corners[sorted[end]].place == faces.corners[sorted[first]].place) { ++end; }
-        const auto corners = std::span<const std::uint32_t>(sorted).subspan(first, end - first);
-        around.look_at(corners);
-        for (std::uint32_t i = 0; i < corners.size(); ++i) {
-            normals[corners[i]] = around.normal_at(i, std::cos(crease_rad) - same_direction);
-        }
-        first = end;
-    }
-    return normals;
-}
+/// The group of faces that do not turn. Those of the first pivot have the next one, and so on.
+constexpr std::uint32_t fixed = models::Smoothing::flat + 1;
 
 } // namespace
 
 std::vector<glm::vec3> corner_normals(const models::polygons::PolygonModel& model, double crease_rad) {
+    assert(crease_rad >= 0.0 && crease_rad <= pi);
     const std::vector<std::uint32_t> places = places_of(model.vertices_m);
-    Faces faces;
+    std::vector<std::uint32_t> corners;
+    for (const std::uint32_t vertex : model.corner_vertices) { corners.push_back(places[vertex]); }
+    std::vector<models::SmoothFace> faces;
     for (std::size_t i = 0; i < model.polygons.size(); ++i) {
-        add_corners(faces, model.corners(i), places, model.vertices_m);
+        const models::polygons::Polygon& polygon = model.polygons[i];
         const auto pivot = models::polygons::pivot_of(model, i);
-        faces.faces.push_back({models::polygons::normal_of(model, i), pivot ? static_cast<int>(*pivot) : fixed});
+        faces.push_back({std::span(corners).subspan(polygon.first_corner, polygon.corner_count),
+            models::polygons::normal_of(model, i),
+            {pivot ? fixed + 1 + static_cast<std::uint32_t>(*pivot) : fixed, static_cast<float>(crease_rad)}});
     }
-    std::vector<glm::vec3> normals = normals_of(faces, crease_rad);
+    std::vector<glm::vec3> normals = models::smooth_normals(faces, model.vertices_m);
     if (model.corner_normals.size() != normals.size()) { return normals; } // pieces of a model have none
     for (std::size_t corner = 0; corner < normals.size(); ++corner) {
         if (model.corner_normals[corner] != glm::vec3(0.0F)) { normals[corner] = model.corner_normals[corner]; }
@@ -353,13 +212,16 @@ std::vector<glm::vec3> corner_normals(const models::polygons::PolygonModel& mode
 }
 
 std::vector<glm::vec3> corner_normals(const models::TriangleMesh& mesh, double crease_rad) {
+    assert(crease_rad >= 0.0 && crease_rad <= pi);
     const std::vector<std::uint32_t> places = places_of(mesh.vertices_m);
-    Faces faces;
-    for (const models::Triangle& triangle : mesh.triangles) {
-        add_corners(faces, triangle, places, mesh.vertices_m);
-        faces.faces.push_back({models::normal_of(mesh, triangle), fixed});
+    std::vector<models::Triangle> triangles;
+    for (const auto& [a, b, c] : mesh.triangles) { triangles.push_back({places[a], places[b], places[c]}); }
+    std::vector<models::SmoothFace> faces;
+    for (std::size_t t = 0; t < triangles.size(); ++t) {
+        faces.push_back(
+            {triangles[t], models::normal_of(mesh, mesh.triangles[t]), {fixed, static_cast<float>(crease_rad)}});
     }
-    return normals_of(faces, crease_rad);
+    return models::smooth_normals(faces, mesh.vertices_m);
 }
 
 } // namespace octant::visuals::shading

@@ -1,14 +1,12 @@
 #pragma once
 
 #include "models/polygons/polygon_model.h"
+#include "models/smooth_normals.h"
 #include "models/triangle_mesh.h"
-#include "sim/base/units.h"
 
-#include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
-#include <cmath>
 #include <span>
 #include <vector>
 
@@ -29,14 +27,6 @@ std::vector<glm::vec3> piece_normals(const models::polygons::PolygonModel& whole
 std::vector<glm::vec2> piece_texture_coordinates(
     const models::polygons::PolygonModel& whole, const models::polygons::PolygonModel& pieces);
 
-/// The angle between two vectors of any length, 0 to pi.
-inline double angle_rad(const glm::dvec3& one, const glm::dvec3& other) {
-    return std::atan2(glm::length(glm::cross(one, other)), glm::dot(one, other));
-}
-
-/// Faces that meet at a larger angle than this keep a visible crease between them.
-inline constexpr double default_crease_rad = rad_from_deg(40.0);
-
 /// Returns a unit normal for each corner, in the order of PolygonModel::corner_vertices: the one that the model's file
 /// gives or, where it gives none, the mean of the face normals around the corner's vertex, each weighted by the face's
 /// angle there. Only those faces count that can be reached from the corner's own face across edges at that vertex and
@@ -45,10 +35,10 @@ inline constexpr double default_crease_rad = rad_from_deg(40.0);
 /// Vertices at exactly the same position count as one. Faces that turn about different pivots, or of which one is
 /// fixed, do not mix. Meant for loading: the time grows with the square of the number of faces around one vertex.
 std::vector<glm::vec3> corner_normals(
-    const models::polygons::PolygonModel& model, double crease_rad = default_crease_rad);
+    const models::polygons::PolygonModel& model, double crease_rad = models::default_crease_rad);
 
 /// The same for a triangle mesh, three normals for each triangle. Triangles without area contribute nothing. The
 /// normals that the mesh's file brought along are ignored.
-std::vector<glm::vec3> corner_normals(const models::TriangleMesh& mesh, double crease_rad = default_crease_rad);
+std::vector<glm::vec3> corner_normals(const models::TriangleMesh& mesh, double crease_rad = models::default_crease_rad);
 
 } // namespace octant::visuals::shading

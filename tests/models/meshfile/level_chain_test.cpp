@@ -1,4 +1,6 @@
 #include "models/meshfile/level_chain.h"
+#include "models/meshfile/mesh_join.h"
+#include "sim/base/binary_file.h"
 #include "sim/base/error.h"
 #include "sim/base/hash.h"
 #include "sim/base/text_file.h"
@@ -33,7 +35,7 @@ LevelChain sample_chain() {
     model.vertices_m = {{0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}, {1.0, 1.0, 0.0}, {0.0, 1.0, 0.0}};
     model.corner_vertices = {0, 1, 2, 3};
     model.polygons = {{0, 4, 0, 1}};
-    model.materials = {{"grey", {0.5F, 0.5F, 0.5F}}};
+    model.materials = {{.name = "grey", .colour = {0.5F, 0.5F, 0.5F}, .opacity = 0.4F}};
     model.parts = {"body", "rotor"};
     model.pivots = {{1, {1.0, 2.0, 3.0}, {0.0, 1.0, 0.0}, 6.5}};
     model.parents = {0};
@@ -100,6 +102,47 @@ TEST_CASE("a chain of levels comes back bit for bit, with the polygons behind it
     CHECK(is.pivots[0].turns_per_s == was.pivots[0].turns_per_s);
     CHECK(is.parents == was.parents);
     CHECK(is.notes == was.notes);
+    REQUIRE(is.materials.size() == 1);
+    CHECK(is.materials[0].opacity == 0.4F);
+}
+
+TEST_CASE("glass of levels keeps its opacity; a file of version 1 is read, all of it opaque") {
+    LevelChain chain = sample_chain();
+    TriangleMesh& mesh = chain.levels[1].mesh;
+    mesh.materials = {{.name = "grey"}, {.name = "glass", .opacity = 0.3F}};
+    mesh.triangle_materials.assign(mesh.triangles.size(), 1);
+    mesh.triangle_materials[0] = 0;
+    const std::filesystem::path path = scratch_file("a.chain");
+    write_chain(path, chain);
+    TriangleMesh read = read_chain(path).levels[1].mesh;
+    const TriangleMesh clear = take_transparent(read);
+    CHECK(read.triangles.size() == 1);
+    CHECK(clear.triangles.size() == mesh.triangles.size() - 1);
+    CHECK(clear.materials[clear.triangle_materials[0]].opacity == 0.3F);
+    mesh.materials[1].opacity = 1.5F;
+    CHECK_THAT(said(chain), Catch::Contains("expected colours and opacities of 0 to 1 before"));
+
+    // A red and blue tetrahedron, written by the version before opacities.
+    const auto old = octant::from_base64(
+        "b2N0Y2hhaW4BAAAAAAAAAJoCAAAAAAAAT/EAOXSMIs4DAAAAAAAAAHRldAEAAAAAAAAAAAAAAAMAAAAAAAAAdGV0BAAAAAAAAAAAAAAAAAAAA"
+        "AAAAAAAAAAAAAAAAAAAAAAAAAAAAADwPwAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAPA/AAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAA"
+        "AAAAAA8D8AAAAAAAAAAAQAAAAAAAAAAAAAAAIAAAABAAAAAAAAAAEAAAADAAAAAAAAAAMAAAACAAAAAQAAAAIAAAADAAAAAAAAAAAAAAAAAAA"
+        "AAAAAAAIAAAAAAAAAAQAAAAAAAABhAACAPwAAAAAAAAAAAQAAAAAAAABiAAAAAAAAAAAAAIA/BAAAAAAAAAAAAAAAAAAAAAEAAAABAAAAAAAA"
+        "AAAAAAABAAAAAAAAAAAAAAADAAAAAAAAAHRldAQAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAA8D8AAAAAAAAAAAAAAAAAA"
+        "AAAAAAAAAAAAAAAAAAAAADwPwAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAPA/DAAAAAAAAAAAAAAAAgAAAAEAAAAAAAAAAQAAAAMAAA"
+        "AAAAAAAwAAAAIAAAABAAAAAgAAAAMAAAAEAAAAAAAAAAAAAAADAAAAAAAAAAAAAAADAAAAAwAAAAAAAAAAAAAABgAAAAMAAAABAAAAAAAAAAk"
+        "AAAADAAAAAQAAAAAAAAACAAAAAAAAAAgAAAAAAAAAY29sb3VyLTEAAIA/AAAAAAAAAAAIAAAAAAAAAGNvbG91ci0yAAAAAAAAAAAAAIA/AQAA"
+        "AAAAAAAHAAAAAAAAAGRlZmF1bHQAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAA=");
+    REQUIRE(old.has_value());
+    const LevelChain before = read_chain(file_with("old.chain", *old));
+    REQUIRE(before.levels.size() == 1);
+    REQUIRE(before.levels[0].mesh.triangles.size() == 4);
+    REQUIRE(before.levels[0].mesh.materials.size() == 2);
+    CHECK(before.levels[0].mesh.materials[1].name == "b");
+    CHECK(before.levels[0].mesh.materials[1].colour == glm::vec3(0.0F, 0.0F, 1.0F));
+    for (const Material& material : before.levels[0].mesh.materials) { CHECK(material.opacity == 1.0F); }
+    REQUIRE(before.polygons.has_value());
+    CHECK(before.polygons->materials[0].opacity == 1.0F);
 }
 
 TEST_CASE("a chain without polygons has none when it is read") {
@@ -118,8 +161,8 @@ TEST_CASE("a file that is no chain, of another version, cut or changed is refuse
     CHECK(refused_chain("octopus!") == "a.chain: at byte 0: expected a chain of levels, got another file");
     CHECK_THAT(refused_chain("oct"), Catch::StartsWith("a.chain: at byte 0: expected a chain of levels (8"));
     std::string newer = good;
-    newer[8] = 2;
-    CHECK(refused_chain(newer) == "a.chain: at byte 8: expected version 1, got 2");
+    newer[8] = 3;
+    CHECK(refused_chain(newer) == "a.chain: at byte 8: expected version 1 to 2, got 3");
     CHECK_THAT(refused_chain(good.substr(0, good.size() - 1)), Catch::StartsWith("a.chain: at byte 16: "));
     for (std::size_t byte = 0; byte < good.size(); ++byte) {
         std::string changed = good;

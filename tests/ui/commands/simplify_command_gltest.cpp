@@ -1,3 +1,4 @@
+#include "models/meshfile/level_chain.h"
 #include "models/meshfile/mesh_file.h"
 #include "models/meshfile/mesh_join.h"
 #include "models/repair/repair.h"
@@ -11,6 +12,7 @@
 #include "ui/report/frame_csv.h"
 
 #include <catch2/catch.hpp>
+#include <glm/geometric.hpp>
 
 #include <cmath>
 #include <cstdlib>
@@ -481,6 +483,55 @@ TEST_CASE("a chain of levels has rising certified errors and is flown") {
     const auto far = last_row("100");
     CHECK(far.aircraft_level > 0);
     CHECK(far.aircraft_polygons < near.aircraft_polygons);
+}
+
+namespace {
+
+/// The area of the transparent surfaces of a mesh, whose opacity must be 0.4.
+double glass_m2(const models::TriangleMesh& mesh) {
+    double doubled_m2 = 0.0;
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+        const models::Material& material = mesh.materials.at(mesh.triangle_materials.at(t));
+        if (!models::is_transparent(material)) { continue; }
+        CHECK(material.opacity == Approx(0.4F));
+        doubled_m2 += glm::length(models::area_vector(mesh, mesh.triangles[t]));
+    }
+    return 0.5 * doubled_m2;
+}
+
+} // namespace
+
+TEST_CASE("glass stays glass in chains, progressive meshes and simplified files of any format, and is told") {
+    const std::string in = OCTANT_SOURCE_DIR "/tests/data/aircraft/glass/glassfine.obj";
+    const models::TriangleMesh mesh = models::meshfile::read_mesh(in);
+    const double whole_m2 = glass_m2(mesh);
+    REQUIRE(whole_m2 > 1.0);
+    const std::string chain = file_named("glass.chain");
+    const tests::PrintedJson made = simplify_figures({in, chain, "--chain"});
+    const models::meshfile::LevelChain read = models::meshfile::read_chain(chain);
+    REQUIRE(read.levels.size() >= 2);
+    CHECK(read.levels.back().mesh.triangles.size() < mesh.triangles.size() / 2);
+    for (const models::meshfile::ChainLevel& level : read.levels) {
+        CHECK(glass_m2(level.mesh) == Approx(whole_m2).epsilon(0.01));
+    }
+    const std::string hierarchy = file_named("glass.pm");
+    const std::string coarse = file_named("coarse.obj");
+    tests::results_of_run("refine", {in, "--base", "100", "--save", hierarchy});
+    const tests::PrintedJson coarsest = tests::results_of_run("refine", {hierarchy, "--out", coarse});
+    CHECK(coarsest["faces"].number() < static_cast<double>(mesh.triangles.size()) / 2.0);
+    CHECK(glass_m2(models::meshfile::read_mesh(coarse)) == Approx(whole_m2).epsilon(0.01));
+    std::vector<std::string> files{chain, hierarchy, coarse};
+    for (const char* const ending : {".obj", ".gltf", ".glb", ".ac", ".wrl"}) {
+        files.push_back(file_named(std::string("glass") + ending));
+        simplify_figures({in, files.back(), "--faces", "200"});
+        CHECK(glass_m2(models::meshfile::read_mesh(files.back())) == Approx(whole_m2).epsilon(0.01));
+    }
+    for (const std::string& file : files) {
+        const tests::ProgramRun told = run_octant({"model", "info", file});
+        INFO(file << told.err);
+        CHECK(told.exit_code == 0);
+        CHECK(told.out.find("opacity 0.40") != std::string::npos);
+    }
 }
 
 TEST_CASE("simplify refuses wrong input in one line with exit code 2") {

@@ -1,8 +1,13 @@
+#include "models/meshfile/level_chain.h"
+#include "models/polygons/polygon_model.h"
 #include "sim/base/random_generator.h"
+#include "tests/scratch.h"
 #include "tests/ui/flight/kept_world.h"
 #include "tests/ui/flight/layer_rays.h"
 #include "ui/flight/renderer_choice.h"
+#include "ui/world/mesh_loader.h"
 #include "visuals/planning/planner.h"
+#include "visuals/refine/progressive_file.h"
 #include "visuals/scene/camera.h"
 
 #include <catch2/catch.hpp>
@@ -86,6 +91,35 @@ TEST_CASE("glass of few and of many polygons is seen through from every side, ne
                 INFO(fmt::format("{}", fmt::join(check.first_wrong, "\n")));
                 CHECK(check.layered > 500);
                 CHECK(check.wrong == 0);
+            }
+        }
+    }
+}
+
+TEST_CASE("glass of a chain of levels and of a progressive mesh is seen through as that of their model") {
+    const std::string name = GENERATE("glass.obj", "glassfine.obj");
+    const models::TriangleMesh mesh = ui::world::load_mesh(found(name));
+    models::meshfile::LevelChain chain;
+    chain.levels.push_back({mesh, 0.0});
+    chain.polygons = models::polygons::polygons_from_mesh(mesh);
+    chain.polygons_error_m = 0.5; // far away
+    const std::string as_chain = (scratch_folder() / (name + ".chain")).string();
+    models::meshfile::write_chain(as_chain, chain);
+    const std::string as_hierarchy = (scratch_folder() / (name + ".pm")).string();
+    visuals::refine::write_progressive(
+        as_hierarchy, *ui::world::make_refine_mesh({.file = name, .quiet = true}, mesh).mesh);
+    for (const std::string& file : {as_chain, as_hierarchy}) {
+        for (const auto renderer : {settings::RendererKind::Raster, settings::RendererKind::Gl}) {
+            for (const auto hidden : {scene::HiddenSurface::Octant, scene::HiddenSurface::DepthBuffer}) {
+                for (const double error_px : {0.01, 1000.0}) {
+                    INFO(file << ", renderer " << static_cast<int>(renderer) << ", hidden surfaces "
+                              << static_cast<int>(hidden) << ", " << error_px << " px");
+                    const LayerCheck check = check_views(
+                        {.file = file, .hidden_surface = hidden, .renderer = renderer, .error_px = error_px});
+                    INFO(fmt::format("{}", fmt::join(check.first_wrong, "\n")));
+                    CHECK(check.layered > 500);
+                    CHECK(check.wrong == 0);
+                }
             }
         }
     }

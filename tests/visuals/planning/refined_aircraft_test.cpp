@@ -245,6 +245,125 @@ TEST_CASE("triangles of a creased mesh have the normals of their own faces, and 
     CHECK(smooth.draw().vertices.size() < draw.vertices.size());
 }
 
+namespace {
+
+constexpr std::uint32_t box_triangles = 12;
+constexpr std::uint32_t mantle_sides = 16;
+
+void add_normal(models::TriangleMesh& mesh, const std::array<glm::dvec3, 3>& normals) {
+    const auto first = static_cast<std::uint32_t>(mesh.normals.size());
+    for (const glm::dvec3& normal : normals) { mesh.normals.emplace_back(glm::normalize(normal)); }
+    mesh.corner_normals.push_back({first, first + 1, first + 2});
+}
+
+/// A cube of 2 m about the origin, then beside it the mantle of an upright cylinder and then its caps. The normals make
+/// the mantle round and all edges of cube and caps sharp; edges share vertices.
+models::TriangleMesh box_and_cylinder() {
+    models::TriangleMesh mesh;
+    mesh.name = "box-and-cylinder";
+    for (const double z : {1.0, -1.0}) {
+        for (const glm::dvec2& at : {glm::dvec2(-1, -1), glm::dvec2(1, -1), glm::dvec2(1, 1), glm::dvec2(-1, 1)}) {
+            mesh.vertices_m.emplace_back(at, z);
+        }
+    }
+    mesh.triangles = {{0, 1, 2}, {0, 2, 3}, {4, 6, 5}, {4, 7, 6}};
+    for (std::uint32_t side = 0; side < 4; ++side) {
+        const std::uint32_t next = (side + 1) % 4;
+        mesh.triangles.push_back({side, side + 4, next + 4});
+        mesh.triangles.push_back({side, next + 4, next});
+    }
+    for (const models::Triangle& triangle : mesh.triangles) {
+        const glm::dvec3 normal = models::normal_of(mesh, triangle);
+        add_normal(mesh, {normal, normal, normal});
+    }
+    const glm::dvec3 axis_m(0.0, 3.0, 0.0);
+    const auto first = static_cast<std::uint32_t>(mesh.vertices_m.size());
+    for (std::uint32_t side = 0; side < mantle_sides; ++side) {
+        const double turn = 2.0 * std::numbers::pi * side / mantle_sides;
+        for (const double z : {1.0, -1.0}) {
+            mesh.vertices_m.push_back(axis_m + glm::dvec3(std::cos(turn), std::sin(turn), z));
+        }
+    }
+    const auto lower = [&](std::uint32_t side) { return first + 2 * (side % mantle_sides); };
+    for (std::uint32_t side = 0; side < mantle_sides; ++side) {
+        for (const auto& triangle : {models::Triangle{lower(side), lower(side) + 1, lower(side + 1) + 1},
+                 models::Triangle{lower(side), lower(side + 1) + 1, lower(side + 1)}}) {
+            mesh.triangles.push_back(triangle);
+            std::array<glm::dvec3, 3> round{};
+            for (std::size_t k = 0; k < 3; ++k) {
+                round.at(k) = mesh.vertices_m[triangle.at(k)] - axis_m;
+                round.at(k).z = 0.0;
+            }
+            add_normal(mesh, round);
+        }
+    }
+    for (std::uint32_t side = 1; side + 1 < mantle_sides; ++side) {
+        mesh.triangles.push_back({lower(0), lower(side), lower(side + 1)});
+        add_normal(mesh, {glm::dvec3(0, 0, 1), glm::dvec3(0, 0, 1), glm::dvec3(0, 0, 1)});
+        mesh.triangles.push_back({lower(0) + 1, lower(side + 1) + 1, lower(side) + 1});
+        add_normal(mesh, {glm::dvec3(0, 0, -1), glm::dvec3(0, 0, -1), glm::dvec3(0, 0, -1)});
+    }
+    return mesh;
+}
+
+/// Whether a drawn triangle is one of the mantle: it has corners at both ends of the cylinder's radius.
+bool is_of_mantle(const std::array<scene::ModelVertex, 3>& corners) {
+    const auto on_mantle = [](const scene::ModelVertex& corner) { return corner.position_m.y > 1.5F; };
+    const auto [lowest, highest] =
+        std::minmax({corners[0].position_m.z, corners[1].position_m.z, corners[2].position_m.z});
+    return std::ranges::all_of(corners, on_mantle) && lowest != highest;
+}
+
+struct ShadedTriangles {
+    int mantle = 0;       ///< smooth ones
+    int sharp = 0;        ///< smooth ones of the cube and of the caps
+    bool is_round = true; ///< smooth ones of the mantle have its normals
+};
+
+/// What of the box and cylinder is smooth where so many triangles may be.
+ShadedTriangles shaded_box_and_cylinder(scene::HybridRule rule, int smooth) {
+    const models::TriangleMesh mesh = box_and_cylinder();
+    const auto whole = std::make_shared<const refine::ProgressiveMesh>(models::CollapseSequence{mesh, {}});
+    const auto creases = refine::mesh_creases(*whole, refine::creased_normals(mesh));
+    scene::ShadingSettings settings;
+    settings.rule = rule;
+    planning::RefinedAircraft aircraft(whole, refining(), settings, {}, creases);
+    aircraft.update(below(20.0), looking_down(), true);
+    shading::ShadingLight light;
+    light.specular = 0.0F;
+    light.to_light = glm::normalize(glm::vec3(1.0F, 0.0F, -1.0F));
+    aircraft.shade({20.0, 0.0, -20.0}, light, smooth);
+    const scene::RefinedDraw draw = aircraft.draw();
+    ShadedTriangles found;
+    for (std::size_t i = 0; i < draw.indices.size(); i += 3) {
+        const auto at = [&](std::size_t k) { return draw.vertices[draw.indices[i + k]]; };
+        const std::array<scene::ModelVertex, 3> corners{at(0), at(1), at(2)};
+        if (corners[0].polygon != 0) { continue; }
+        const bool is_mantle = is_of_mantle(corners);
+        ++(is_mantle ? found.mantle : found.sharp);
+        for (const scene::ModelVertex& corner : corners) {
+            const glm::vec3 round = glm::normalize(corner.position_m - glm::vec3(0.0F, 3.0F, corner.position_m.z));
+            found.is_round = found.is_round && (!is_mantle || glm::dot(corner.normal, round) > 0.999F);
+        }
+    }
+    return found;
+}
+
+} // namespace
+
+TEST_CASE("of a cube and a cylinder with sharp edges only the cylinder's mantle is smooth: edges are no curves") {
+    constexpr int facing = mantle_sides - 2; // two triangles a side, but for those seen edge on
+    REQUIRE(box_and_cylinder().triangles.size() == box_triangles + 2 * mantle_sides + 2 * (mantle_sides - 2));
+    for (const int smooth : {1, 4, facing}) {
+        const ShadedTriangles by_error = shaded_box_and_cylinder(scene::HybridRule::Error, smooth);
+        CHECK(by_error.mantle == smooth);
+        CHECK(by_error.sharp == 0);
+        CHECK(by_error.is_round);
+    }
+    // As printed, light at the vertices decides, and the mean normals at the cube's corners differ most.
+    CHECK(shaded_box_and_cylinder(scene::HybridRule::Paper, facing).sharp > 0);
+}
+
 TEST_CASE("far away, where its polygons are good enough, a refined aircraft is drawn as them") {
     planning::AircraftModel model = convex_aircraft(box_model({4.0, 4.0, 1.0}));
     planning::add_progressive(model, hierarchy(), 0.5);

@@ -1,9 +1,11 @@
+#include "sim/base/binary_file.h"
 #include "sim/base/error.h"
 #include "sim/base/output_file.h"
 #include "sim/base/text_file.h"
 #include "tests/scratch.h"
 #include "tests/visuals/refine/front_check.h"
 #include "tests/visuals/refine/made_sequence.h"
+#include "visuals/refine/active_mesh.h"
 #include "visuals/refine/progressive_file.h"
 #include "visuals/refine/selective_refiner.h"
 
@@ -67,6 +69,36 @@ TEST_CASE("a file gives back what was written, face for face") {
         CHECK(read.parts().materials.size() == made.materials.size());
         CHECK(all_faces(read) == all_faces(mesh));
     }
+}
+
+TEST_CASE("materials keep their opacity; a file of version 1 is read, all of it opaque") {
+    models::TriangleMesh made = made_sphere(2);
+    made.materials = {{.name = "grey"}, {.name = "glass", .colour = {0.2F, 0.4F, 1.0F}, .opacity = 0.3F}};
+    made.triangle_materials.assign(made.triangles.size(), 0);
+    for (std::size_t t = 0; t < made.triangles.size(); t += 3) { made.triangle_materials[t] = 1; }
+    write_progressive(file("glass.pm"), ProgressiveMesh(collapsed(made)));
+    const ProgressiveMesh read = read_progressive(file("glass.pm"));
+    const models::TriangleMesh finest = finest_mesh(read);
+    REQUIRE(finest.materials.size() == 2);
+    CHECK(finest.materials[0].opacity == 1.0F);
+    CHECK(finest.materials[1].opacity == 0.3F);
+    CHECK(finest.materials[1].name == "glass");
+    for (std::uint32_t face = 0; face < read.face_count(); ++face) {
+        CHECK(finest.triangle_materials[face] == made.triangle_materials[read.original_face(face)]);
+    }
+
+    // A tetrahedron of two materials, written by the version before opacities.
+    const auto old = from_base64(
+        "T0NUUE0NChpUAAAAAQAAAPkAAAAAAAAABAAAAAAAAAAEAAAABAAAAAMAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAADdGV0AgAzMzM/MzMzPzMzM"
+        "z8AMzMzPzMzMz8zMzM/kYAwksFhOKBxAAAAAAEAAAAAAAAAAAAAAACrqquqqqoAAFVVAQEAAIA/AAAAAAAAAAD/fwAAqqoAAFVVAgEAAAAAAA"
+        "CAPwAAAAAAAP9/VVUAAKqqAwEAAAAAAAAAAAAAgD8AAAAAVVUAAKqqBAAEAgAAAgYAAAYEAQIEBgH19/krFFYhOwgAAAAAAgICBQICAulPZ6s"
+        "2Hv9D");
+    REQUIRE(old.has_value());
+    write_file(file("old.pm"), *old);
+    const models::TriangleMesh before = finest_mesh(read_progressive(file("old.pm")));
+    CHECK(before.triangles.size() == 4);
+    REQUIRE(before.materials.size() == 2);
+    for (const models::Material& material : before.materials) { CHECK(material.opacity == 1.0F); }
 }
 
 TEST_CASE("fewer vertices are a coarser model, the one that the sequence went through") {

@@ -43,7 +43,7 @@ namespace shading = visuals::shading;
 /// The angle between the torus' quads along the inner side is more than the usual crease.
 constexpr double round_crease_rad = rad_from_deg(60.0);
 
-ShadedModel shaded_model(std::string name, const auto& model, double crease_rad = shading::default_crease_rad) {
+ShadedModel shaded_model(std::string name, const auto& model, double crease_rad = models::default_crease_rad) {
     return {std::move(name), shading::shaded_polygons(model, shading::corner_normals(model, crease_rad))};
 }
 

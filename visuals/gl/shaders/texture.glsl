@@ -69,15 +69,47 @@ vec4 on_level(Texture shown, uint number, vec2 place) {
     return vec4(sum.a > 0.0 ? sum.rgb / sum.a : plain, sum.a);
 }
 
-// The colour of a picture and how much of it is there. `across` and `down`: the change of its place by a pixel.
+// Half the logarithm to base 2, linear between powers of two.
+float half_log2(float number) {
+    return float(floatBitsToInt(number) - (127 << 23)) * exp2(-24.0);
+}
+
+// The colour of a picture and how much of it is there. `across` and `down`: the change of its place by a pixel. What is
+// taken of the picture is that of the raster renderer (MeshFootprint): of a footprint that is longer than wide, a few
+// places along its length at the level of its width; else one place, between two levels the mixture of both.
 vec4 shown_by(Texture shown, vec2 place, vec2 across, vec2 down) {
+    const float longer = 1.5; // than wide, where two places begin
     TextureLevel finest = texture_levels[shown.first_level];
     vec2 size = vec2(finest.width, finest.height);
-    float footprint2 = max(dot(across * size, across * size), dot(down * size, down * size));
-    float level = clamp(0.5 * log2(max(footprint2, 1e-12)), 0.0, float(shown.level_count - 1u));
-    vec2 near = vec2(near_picture(place.x, shown.modes & 3u), near_picture(place.y, shown.modes >> 2 & 3u));
-    uint finer = uint(level);
-    uint coarser = min(finer + 1u, shown.level_count - 1u);
-    vec4 colour = on_level(shown, finer, near);
-    return coarser == finer ? colour : mix(colour, on_level(shown, coarser, near), level - float(finer));
+    vec2 right = across * size;
+    vec2 below = down * size;
+    float right2 = dot(right, right);
+    float below2 = dot(below, below);
+    float length2 = max(right2, below2);
+    float area = abs(right.x * below.y - right.y * below.x);
+    bool is_long = length2 > 1.0 && longer * area < length2;
+    float width = max(area / max(length2, 1.0), 1.0 / 3.0); // of a place, in lengths
+    width = width * width * length2 < 1.0 ? inversesqrt(max(length2, 1.0)) : width; // no finer than the finest level
+    width = is_long ? width : 1.0;
+    float last = float(shown.level_count - 1u);
+    float level = min(half_log2(max(width * width * length2, 1.0)), last);
+    float coarse_share = clamp(3.0 * (fract(level) - 0.5) + 0.5, 0.0, 1.0);
+    bool is_next = coarse_share >= (is_long ? 0.5 : 1.0);
+    float taken = min(floor(level) + (is_next ? 1.0 : 0.0), last);
+    bool has_next = taken < last;
+    bool has_several = is_long && has_next && longer * width < 1.0;
+    int places = has_several ? ((longer + 1.0) * width < 1.0 ? 3 : 2) : 1;
+    vec2 reach = has_several ? 0.5 * (1.0 - width) * (right2 > below2 ? across : down) : vec2(0.0);
+    vec4 sum = vec4(0.0);
+    for (int i = 0; i < places; ++i) {
+        float far = places == 1 ? 0.0 : 2.0 * float(i) / float(places - 1) - 1.0;
+        vec2 at = place + far * reach;
+        vec2 near = vec2(near_picture(at.x, shown.modes & 3u), near_picture(at.y, shown.modes >> 2 & 3u));
+        vec4 colour = on_level(shown, uint(taken), near);
+        if (!is_long && !is_next && has_next && coarse_share > 0.0) {
+            colour = mix(colour, on_level(shown, uint(taken) + 1u, near), coarse_share);
+        }
+        sum += colour;
+    }
+    return sum / float(places);
 }
