@@ -50,7 +50,7 @@ void set_what(Report& report, const std::string& what) {
 /// Why a model's order is not proved right; empty if it is.
 std::string gap_in_proof(const visuals::draworder::OrderedModel& ordered) {
     const std::filesystem::path file = scratch_folder() / "certificate.txt";
-    write_file(file, visuals::certificate::order_certificate(ordered.model, ordered.order, {}, {"trial", "0"}).text);
+    write_file(file, visuals::certificate::order_certificate({ordered.model, ordered.order, {}, {"trial", "0"}}).text);
     const auto verdict = visuals::verify::verify(visuals::verify::CertificateReader(file));
     if (verdict.failure) { return fmt::format("line {}: {}", verdict.failure->line, verdict.failure->what); }
     return verdict.proved() ? "" : fmt::format("{} claims without proof", verdict.unproved);

@@ -25,10 +25,12 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <cstdio>
 #include <filesystem>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -41,6 +43,8 @@ namespace octant::ui::commands {
 using namespace command_line;
 
 namespace {
+
+namespace fs = std::filesystem;
 
 /// Shows progress in percent, once the work has taken a second. Measures its time.
 class PercentProgress {
@@ -198,33 +202,29 @@ void check_draw_order_options(const DrawOrderOptions& options) {
     }
 }
 
-/// An order that holds for every eye, or for those that its choices leave
-/// (orderstudy::with_min_distance), with the model that it speaks of.
-struct CertifiedOrder {
-    const models::polygons::PolygonModel& model;
-    const visuals::draworder::DrawOrder& order;
-    const models::polygons::FileAxes& axes;
-    const visuals::certificate::CertifiedModel& bound_to;
-};
-
 namespace proofs = visuals::verify;
 
-std::string certificate_text(const CertifiedOrder& proved, bool quiet, base::JsonValue& results) {
+using visuals::certificate::CertifiedOrder;
+
+/// Writes a certificate into a file and adds to the figures; false where it would take more than `max_bytes`, and is
+/// not written.
+bool is_certificate_written(
+    const fs::path& file, const CertifiedOrder& proved, std::uint64_t max_bytes, bool quiet, base::JsonValue& results) {
     PercentProgress percents("seeking proofs", quiet);
-    const auto certificate = visuals::certificate::order_certificate(
-        proved.model, proved.order, proved.axes, proved.bound_to, [&](std::size_t done, std::size_t all) {
+    const auto written =
+        visuals::certificate::write_order_certificate(file, proved, max_bytes, [&](std::size_t done, std::size_t all) {
             percents.show(static_cast<double>(done) / static_cast<double>(all));
         });
     results["certificate_ms"] = percents.finish();
-    results["certificate_unproved"] = certificate.unproved;
-    results["certificate_bytes"] = certificate.text.size();
-    return certificate.text;
+    results["certificate_unproved"] = written.unproved;
+    results["certificate_bytes"] = written.bytes;
+    return !written.is_too_long;
 }
 
 /// Checks a certificate without rounding and adds to the figures; whether it proves all.
-bool all_proofs_hold(const std::string& text, PercentProgress& percents, base::JsonValue& results) {
+bool all_proofs_hold(const fs::path& certificate, PercentProgress& percents, base::JsonValue& results) {
     const std::string file = "certificate";
-    const auto verdict = proofs::verify({text, file}, [&](std::size_t done, std::size_t all) {
+    const auto verdict = proofs::verify(proofs::CertificateReader(certificate), [&](std::size_t done, std::size_t all) {
         percents.show(static_cast<double>(done) / static_cast<double>(all));
     });
     results["tolerance_sizes"] = verdict.tolerance_sizes;
@@ -251,19 +251,22 @@ constexpr double max_bytes_of_a_pair = 40.0;
 /// What the polygons themselves take in small models.
 constexpr double bytes_of_a_polygon = 200.0;
 
-bool is_too_long(const std::string& certificate, std::size_t polygons) {
+std::uint64_t max_certificate_bytes(std::size_t polygons) {
     const auto count = static_cast<double>(polygons);
-    return static_cast<double>(certificate.size()) >
-           bytes_of_a_polygon * count + max_bytes_of_a_pair * 0.5 * count * (count - 1.0);
+    return static_cast<std::uint64_t>(bytes_of_a_polygon * count + max_bytes_of_a_pair * 0.5 * count * (count - 1.0));
 }
+
+constexpr std::uint64_t any_length = std::numeric_limits<std::uint64_t>::max();
 
 /// Seeks the proofs of an order and checks them without rounding, without a file; adds to the
 /// figures. False where something is not proved.
 bool order_is_proved(const CertifiedOrder& proved, bool quiet, base::JsonValue& results) {
     if (proved.model.polygons.empty()) { return true; }
-    const std::string text = certificate_text(proved, quiet, results);
+    const base::TemporaryFolder folder;
+    const fs::path file = folder.path() / "certificate";
+    is_certificate_written(file, proved, any_length, quiet, results);
     PercentProgress percents("verifying", quiet);
-    return all_proofs_hold(text, percents, results);
+    return all_proofs_hold(file, percents, results);
 }
 
 } // namespace
@@ -479,18 +482,18 @@ void require_same_model(const DrawOrderOptions& options) {
 /// polygons are split by planes instead, which `work` then is about.
 void write_certificate(const DrawOrderOptions& options, PreparedOrder& work, JsonValue& results) {
     if (work.model.polygons.empty()) { throw Error("--certificate: expected polygons that can be seen, got none"); }
-    std::string text = certificate_text(work.to_certify(), options.quiet, results);
-    if (options.method == "exact" && is_too_long(text, work.polygons_of_file)) {
-        base::print_note(options.quiet, fmt::format("note: a certificate of this order would take {} bytes: polygons "
-                                                    "are split by planes instead, as with --method bsp",
-                                            text.size()));
+    const std::uint64_t max_bytes =
+        options.method == "exact" ? max_certificate_bytes(work.polygons_of_file) : any_length;
+    if (!is_certificate_written(options.certificate, work.to_certify(), max_bytes, options.quiet, results)) {
+        base::print_note(options.quiet, fmt::format("note: a certificate of this order would take more than {} bytes: "
+                                                    "polygons are split by planes instead, as with --method bsp",
+                                            max_bytes));
         DrawOrderOptions by_planes = options;
         by_planes.method = "bsp";
         by_planes.quiet = true;
         work = prepare_order(by_planes, results);
-        text = certificate_text(work.to_certify(), options.quiet, results);
+        is_certificate_written(options.certificate, work.to_certify(), any_length, options.quiet, results);
     }
-    write_file(options.certificate, text);
     base::print_note(options.quiet, "certificate: " + options.certificate);
 }
 

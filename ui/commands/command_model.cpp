@@ -1,5 +1,6 @@
 #include "models/measure/mesh_defects.h"
 #include "models/meshfile/level_chain.h"
+#include "models/meshfile/mesh_parts.h"
 #include "models/meshfile/texture_store.h"
 #include "models/repair/repair.h"
 #include "models/triangle_mesh.h"
@@ -16,6 +17,7 @@
 #include "ui/world/mesh_loader.h"
 #include "visuals/refine/active_mesh.h"
 #include "visuals/refine/progressive_file.h"
+#include "visuals/shading/vertex_normals.h"
 
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
@@ -24,9 +26,11 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <fmt/format.h>
 #include <limits>
+#include <map>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -185,15 +189,15 @@ struct ModelInfoOptions : base::OutputOptions {
     std::string picture;
 };
 
-models::TriangleMesh read_any_mesh(
+models::meshfile::RotatingModel read_any_model(
     const std::string& file, const std::shared_ptr<models::meshfile::TextureStore>& textures) {
     if (models::meshfile::is_chain_file(file)) {
-        return std::move(models::meshfile::read_chain(file).levels.front().mesh);
+        return {std::move(models::meshfile::read_chain(file).levels.front().mesh), {}, {}};
     }
     if (visuals::refine::is_progressive_file(file)) {
-        return visuals::refine::finest_mesh(visuals::refine::read_progressive(file));
+        return {visuals::refine::finest_mesh(visuals::refine::read_progressive(file)), {}, {}};
     }
-    return world::load_mesh(file, {.pictures = true, .textures = textures});
+    return world::load_rotating_model(file, {.pictures = true, .textures = textures});
 }
 
 void turn_into_body(models::TriangleMesh& mesh, const models::polygons::FileAxes& axes) {
@@ -259,6 +263,57 @@ void add_pictures(
     results["picture_bytes"] = textures.bytes();
 }
 
+/// Edges of two triangles of a repaired mesh, and those at which it is drawn with two normals.
+struct EdgeCounts {
+    std::size_t all = 0;
+    std::size_t hard = 0;
+};
+
+/// With the normals of its file, or those that a mesh without any is flown with.
+EdgeCounts count_edges(const models::TriangleMesh& mesh) {
+    constexpr double same_normal_rad = 0.02;
+    const std::vector<glm::vec3> made =
+        mesh.corner_normals.empty() ? visuals::shading::corner_normals(mesh) : std::vector<glm::vec3>();
+    const auto normal_at = [&](std::size_t triangle, std::size_t corner) -> glm::dvec3 {
+        if (!made.empty()) { return glm::dvec3(made[3 * triangle + corner]); }
+        const std::uint32_t normal = mesh.corner_normals[triangle][corner];
+        return normal == models::invalid_index ? models::normal_of(mesh, mesh.triangles[triangle])
+                                               : glm::dvec3(mesh.normals[normal]);
+    };
+    std::map<std::pair<std::uint32_t, std::uint32_t>, std::pair<glm::dvec3, glm::dvec3>> open;
+    EdgeCounts counts;
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            const std::size_t next = (k + 1) % 3;
+            auto edge = std::pair(mesh.triangles[t][k], mesh.triangles[t][next]);
+            auto normals = std::pair(normal_at(t, k), normal_at(t, next));
+            if (edge.first > edge.second) {
+                std::swap(edge.first, edge.second);
+                std::swap(normals.first, normals.second);
+            }
+            const auto [other, is_first] = open.try_emplace(edge, normals);
+            if (is_first) { continue; }
+            ++counts.all;
+            const auto& [one, two] = other->second;
+            if (visuals::shading::angle_rad(one, normals.first) > same_normal_rad ||
+                visuals::shading::angle_rad(two, normals.second) > same_normal_rad) {
+                ++counts.hard;
+            }
+            open.erase(other);
+        }
+    }
+    return counts;
+}
+
+/// What turns and moves in flight, and what is seen through.
+void add_parts(base::JsonValue& results, const models::meshfile::RotatingModel& model) {
+    results["turning_parts"] =
+        std::ranges::count_if(model.parts, [](const auto& part) { return part.about.turns_per_s != 0.0; });
+    results["moving_parts"] = std::ranges::count_if(model.parts, [](const auto& part) { return !part.moves.empty(); });
+    results["glass_faces"] = model.clear.triangles.size();
+    results["glass_panes"] = models::measure::defects(models::repair::repaired(model.clear).mesh).shells;
+}
+
 void add_surface(base::JsonValue& results, const models::TriangleMesh& mesh) {
     const std::size_t read = mesh.triangles.size();
     const models::repair::RepairedMesh repaired = models::repair::repaired(mesh);
@@ -267,6 +322,10 @@ void add_surface(base::JsonValue& results, const models::TriangleMesh& mesh) {
     results["vertices"] = mesh.vertices_m.size();
     results["shells"] = found.shells;
     results["closed"] = found.boundary_edges == 0;
+    const EdgeCounts edges = count_edges(repaired.mesh);
+    results["edges"] = edges.all;
+    results["hard_edges"] = edges.hard;
+    results["normals"] = mesh.corner_normals.empty() ? "by crease angle" : "of the file";
     results["defects"] = models::repair::describe_counts(repaired.counts);
 }
 
@@ -274,14 +333,16 @@ void show_model_info(const ModelInfoOptions& options) {
     world::check_axes(options.frame.axes);
     if (!options.picture.empty()) { check_can_write(options.picture); }
     const auto textures = std::make_shared<models::meshfile::TextureStore>();
-    models::TriangleMesh mesh = read_any_mesh(options.file, textures);
+    models::meshfile::RotatingModel model = read_any_model(options.file, textures);
+    base::JsonValue results;
+    results["file"] = options.file;
+    add_parts(results, model);
+    models::TriangleMesh mesh = models::meshfile::mesh_at_rest(std::move(model));
     const world::AircraftAxes axes = world::aircraft_axes(options.frame.axes, options.file, mesh);
     world::scale_mesh(mesh, options.frame.scale);
     turn_into_body(mesh, axes.axes);
     const models::BoundingBox bounds = models::bounds_of(mesh);
     const glm::dvec3 extent_m = bounds.max_m - bounds.min_m;
-    base::JsonValue results;
-    results["file"] = options.file;
     results["length_m"] = extent_m.x;
     results["span_m"] = extent_m.y;
     results["height_m"] = extent_m.z;
@@ -324,13 +385,15 @@ Command model_info_command() {
                               "directions of the file's x, y and z axes: right, left, up, down, forward, back",
                               options->frame.axes),
                           value_option(settings::aircraft_scale_info, options->frame.scale)}),
-        .footer = "Keys: file, length_m, span_m, height_m, scale, axes, axes_are, faces and "
-                  "vertices as read,\n  shells, closed and defects as repaired, materials "
-                  "(red green blue, opacity where they are clear) and how often, vertex_colours,\n  pictures that lie "
-                  "on it, emissive_pictures, "
-                  "picture_bytes "
-                  "in memory with mip levels, notes, picture.\n"
-                  "Example:\n  octant model info f15 --picture f15.png",
+        .footer =
+            "Keys: file, turning_parts, moving_parts, glass_faces, glass_panes, length_m, span_m, height_m, scale, "
+            "axes, axes_are, faces and "
+            "vertices as read,\n  shells, closed, edges, hard_edges and defects as repaired, normals (of the file or "
+            "by crease "
+            "angle),\n  materials (red green blue, opacity where they are clear) and how often, "
+            "vertex_colours,\n  pictures that lie on it, emissive_pictures, picture_bytes in memory with mip levels, "
+            "notes, picture.\n"
+            "Example:\n  octant model info f15 --picture f15.png",
         .run = [options] { show_model_info(*options); }};
 }
 

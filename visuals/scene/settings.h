@@ -81,7 +81,7 @@ struct SurfaceSettings {
     HiddenSurface hidden_surface = HiddenSurface::Octant;
     draworder::OrderMethod order_method = draworder::OrderMethod::Exact;
     /// The approximate time limit of the search for an order, on one core.
-    double order_seconds = 20.0;
+    double order_seconds = 4.0;
     /// The cache of orders: a folder, "user" for the user's own cache, or "none". Does not change pictures.
     std::string order_cache = "user";
     /// Whether aircraft cast shadows on the ground.

@@ -230,8 +230,9 @@ namespace {
 
 constexpr std::size_t unseen = std::numeric_limits<std::size_t>::max();
 
-void require_some(const Certificate& certificate, bool some, const char* what) {
-    if (!some) { throw_error_in(certificate.path, fmt::format("expected {}, got none", what)); }
+/// `line`: where the lines of the model and its order end.
+void require_some(const Certificate& certificate, int line, bool some, const char* what) {
+    if (!some) { throw_error_at(certificate.path, line, fmt::format("expected {} before here, got none", what)); }
 }
 
 class RegionPlaneCounter {
@@ -282,11 +283,12 @@ private:
 
 /// Counts the region planes down from the first node, or for the only list where there is no node. Throws Error unless
 /// nodes and lists are one tree and the certificate has a tolerance and polygons.
-RegionPlaneCounts count_region_planes(const Certificate& certificate) {
-    require_some(certificate, !certificate.model_hash.empty(), "a model");
-    require_some(certificate, certificate.tolerance > 0.0, "a tolerance");
-    require_some(certificate, !certificate.polygons.empty(), "at least one polygon");
-    require_some(certificate, !certificate.lists.empty(), "at least one list");
+/// `line`: where they end.
+RegionPlaneCounts count_region_planes(const Certificate& certificate, int line) {
+    require_some(certificate, line, !certificate.model_hash.empty(), "a model");
+    require_some(certificate, line, certificate.tolerance > 0.0, "a tolerance");
+    require_some(certificate, line, !certificate.polygons.empty(), "at least one polygon");
+    require_some(certificate, line, !certificate.lists.empty(), "at least one list");
     return RegionPlaneCounter(certificate).count();
 }
 
@@ -303,7 +305,8 @@ constexpr std::string_view expected_statement = "pairs, sum, never, away or unpr
 class StatementReader {
 public:
     StatementReader(CertificateTokens& words, const Certificate& certificate)
-        : words_(words), certificate_(certificate), region_plane_counts_(count_region_planes(certificate)) {}
+        : words_(words), certificate_(certificate),
+          region_plane_counts_(count_region_planes(certificate, words.line_number())) {}
 
     /// Reads what follows the first word of a statement; returns the node or list that it is about.
     int take(Statement::Kind kind, Statement& statement) {

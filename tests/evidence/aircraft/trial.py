@@ -3,15 +3,16 @@
 
   trial.py OCTANT LIST OUT [NAME...]
 
-LIST has a line for each aircraft: a name, a tab, and its file, relative to the folder of LIST. For each one OUT gets a
-row in results.jsonl and pictures: three views (octant model info --picture: from the left with the nose to the left,
-from above, from ahead) and one of a flight. table.md is made of results.jsonl, sheet-N.png of the pictures; they are to
-be looked at, since whether an aircraft flies nose first is nothing that this script could know. With NAMEs only those
-are run again. Uses the program's command line alone; ffmpeg puts pictures together.
+LIST has a line for each aircraft: its name, its file, relative to the folder of LIST, and perhaps what a look at its
+pictures said of its direction and more options of octant fly, with tabs between them. For each one OUT gets a row in
+results.jsonl and pictures: three views (octant model info --picture: from the left with the nose to the left, from
+above, from ahead) and one of a flight. Its painting order is found (octant draw-order) and tried by rays. table.md is
+made of results.jsonl, sheet-N.png of the pictures; they are to be looked at, since whether an aircraft flies nose first
+is nothing that this script could know. With NAMEs only those are run again. Uses the program's command line alone;
+ffmpeg puts pictures together.
 """
 import json
 import os
-import re
 import resource
 import shutil
 import subprocess
@@ -34,7 +35,17 @@ def run(command):
     return code, out, err, cpu_s, time.monotonic() - start
 
 
-def trial(octant, name, file, out):
+def order_of(octant, file):
+    code, text, err, cpu_s, _ = run([octant, "draw-order", file, "--rays", "20000", "--json"])
+    order = {"code": code, "cpu_s": cpu_s, "errors": err.strip().splitlines()[-1:]}
+    if code in (0, 1):
+        found = json.loads(text)
+        order |= {key: found.get(key) for key in ("drawn_by", "polygons", "polygons_after_splitting", "cells", "parts",
+                                                  "proof_is_whole", "proof_open", "rays_that_hit", "rays_wrong")}
+    return order
+
+
+def trial(octant, name, file, options, out):
     row = {"name": name, "file": file}
     picture = f"{out}/{name}-views.png"
     code, text, err, row["info_cpu_s"], _ = run([octant, "model", "info", file, "--json", "--picture", picture])
@@ -42,12 +53,14 @@ def trial(octant, name, file, out):
     if code == 0:
         info = json.loads(text)
         row |= {key: info.get(key) for key in ("length_m", "span_m", "height_m", "scale", "axes", "axes_are", "faces",
-                                                "pictures", "emissive_pictures", "picture_bytes", "notes")}
+                                                "pictures", "emissive_pictures", "picture_bytes", "edges", "hard_edges", "normals", "glass_panes", "glass_faces",
+                                                "turning_parts", "moving_parts", "notes")}
+        row["order"] = order_of(octant, file)
     cache, record = f"{out}/cache-{name}", f"{out}/record-{name}"
     shutil.rmtree(cache, ignore_errors=True)
     os.makedirs(cache)
     flight = [octant, "fly", "straight", "--aircraft", file, "--terrain", "none", "--view", "orbit", "--azimuth", "40",
-              "--elevation", "18", "--size", "640x400", "--order-cache", cache, "--json"]
+              "--elevation", "18", "--size", "640x400", "--order-cache", cache, "--json"] + options
     for key, frames in (("first", 1), ("second", 1), ("frames", 12)):
         shutil.rmtree(record, ignore_errors=True)
         more = ["--record", record, "--pictures", "1"] if key == "frames" else []
@@ -64,21 +77,40 @@ def trial(octant, name, file, out):
     return row
 
 
+def order_text(row):
+    """How the whole model can be painted in order, and what a flight does near it."""
+    order = row.get("order") or {}
+    if order.get("drawn_by") is None:
+        text = f"none: {order.get('code')}"
+    else:
+        kinds = {"tree": "cells", "parts": "planes", "tree-and-parts": "cells and planes"}
+        text = f"{kinds.get(order['drawn_by'], order['drawn_by'])}, {order['polygons_after_splitting']:,} pieces"
+        text += f", {order['rays_wrong']} of {order['rays_that_hit']:,} rays wrong" if order["rays_wrong"] else ""
+        text += f", {order['proof_open']} pairs open" if order["proof_open"] else ""
+    near = "depth" if any("made ready to be refined" in note for note in row["fly_notes"]) else "order"
+    return f"{near}; {text}"
+
+
+def cells_of(row):
+    parts = [row.get("turning_parts") or 0, row.get("moving_parts") or 0]
+    return [row["name"], f"{row['faces']:,}", f"{row['length_m']:.1f}, {row['span_m']:.1f}",
+            (row.get("axes_are") or "").split(":")[0][:40], row.get("direction") or "",
+            f"{len(row.get('pictures') or [])}, {(row.get('picture_bytes') or 0) / 2**20:.0f}",
+            f"{row['hard_edges']:,} of {row['edges']:,}" + ("" if row["normals"] == "of the file" else " made"),
+            f"{row['glass_panes']}" if row["glass_panes"] else "", "{}, {}".format(*parts) if any(parts) else "",
+            f"{row['first']['cpu_s']:.1f}, {row['second']['cpu_s']:.1f}",
+            f"{row['frame_ms']:.0f}" if "frame_ms" in row else str(row["frames"]["code"]), order_text(row)]
+
+
 def table(rows):
-    lines = ["| aircraft | triangles | length, span, m | axes | pictures | MiB | turning | first, s | second, s | frame, ms | hidden surfaces |",
-             "|---|---|---|---|---|---|---|---|---|---|---|"]
+    lines = ["| aircraft | triangles | length, span, m | axes | direction | pictures, MiB | hard edges | panes | turn, move "
+             "| first, second start, CPU s | frame, ms | near; order of all |",
+             "|" + "---|" * 12]
     for row in rows:
-        if row["info_code"] != 0 and row["frames"]["code"] != 0:
-            lines.append(f"| {row['name']} | refused: {row['info_errors'].splitlines()[-1][-160:]} |" + " |" * 9)
-            continue
-        notes = "\n".join(row["fly_notes"])
-        turning = re.search(r"(\d+) parts (turn|move)", notes)
-        order = ("cells" if "cells" not in notes else "planes") if "too many" not in notes else "depth"
-        lines.append("| {} | {} | {:.1f}, {:.1f} | {} | {} | {:.0f} | {} | {:.2f} | {:.2f} | {} | {} |".format(
-            row["name"], row.get("faces"), row.get("length_m") or 0, row.get("span_m") or 0,
-            (row.get("axes_are") or "")[:60], len(row.get("pictures") or []), (row.get("picture_bytes") or 0) / 2**20,
-            turning.group(1) if turning else 0, row["first"]["cpu_s"], row["second"]["cpu_s"],
-            f"{row['frame_ms']:.1f}" if "frame_ms" in row else row["frames"]["code"], order))
+        if row["info_code"] != 0:
+            lines.append(f"| {row['name']} | refused: {row['info_errors'].splitlines()[-1][-160:]} |" + " |" * 10)
+        else:
+            lines.append("| " + " | ".join(cells_of(row)) + " |")
     return "\n".join(lines) + "\n"
 
 
@@ -107,14 +139,15 @@ def main():
             rows = {row["name"]: row for row in map(json.loads, file)}
     with open(listing, encoding="utf-8") as file:
         entries = [line.rstrip("\n").split("\t") for line in file if "\t" in line]
-    for name, path in entries:
+    for name, path, *more in entries:
         if (wanted and name not in wanted) or (not wanted and name in rows):
             continue
-        rows[name] = trial(octant, name, os.path.join(os.path.dirname(os.path.abspath(listing)), path), out)
+        file = os.path.join(os.path.dirname(os.path.abspath(listing)), path)
+        rows[name] = trial(octant, name, file, more[1].split() if len(more) > 1 else [], out)
         print(name, rows[name]["info_code"], rows[name]["frames"], rows[name].get("axes_are"), flush=True)
         with open(results, "w", encoding="utf-8") as file:
-            file.writelines(json.dumps(rows[one]) + "\n" for one, _ in entries if one in rows)
-    ordered = [rows[name] for name, _ in entries if name in rows]
+            file.writelines(json.dumps(rows[one]) + "\n" for one, *_ in entries if one in rows)
+    ordered = [rows[name] | {"direction": more[0] if more else ""} for name, _, *more in entries if name in rows]
     with open(f"{out}/table.md", "w", encoding="utf-8") as file:
         file.write(table(ordered))
     sheets(ordered, out)

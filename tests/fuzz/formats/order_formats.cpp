@@ -21,7 +21,7 @@ std::vector<std::string> seeds() {
     std::vector<std::string> all;
     for (const double search_s : {20.0, 0.0}) {
         const auto ordered = visuals::draworder::ordered(small_model(), {.seconds = search_s});
-        all.push_back(visuals::certificate::order_certificate(ordered.model, ordered.order, {}, {"model", "0"}).text);
+        all.push_back(visuals::certificate::order_certificate({ordered.model, ordered.order, {}, {"model", "0"}}).text);
     }
     return all;
 }

@@ -1,6 +1,7 @@
 #include "models/planar/planar_model.h"
 #include "models/polygons/file_axes.h"
 #include "models/polygons/obj_reader.h"
+#include "sim/base/error.h"
 #include "sim/base/output_file.h"
 #include "sim/base/text_file.h"
 #include "tests/scratch.h"
@@ -35,7 +36,7 @@ models::polygons::PolygonModel read(const std::string& file) {
 /// Of the exact order, found by a search over eye space or, without one, by splitting polygons.
 OrderCertificate certificate_of(const std::string& file, double search_s = 20.0) {
     const auto ordered = visuals::draworder::ordered(read(file), {.seconds = search_s});
-    return visuals::certificate::order_certificate(ordered.model, ordered.order, {}, {"model", "0123456789abcdef"});
+    return visuals::certificate::order_certificate({ordered.model, ordered.order, {}, {"model", "0123456789abcdef"}});
 }
 
 VerificationResult verdict_of(const std::string& text) {
@@ -193,4 +194,40 @@ TEST_CASE("a certificate in which one thing was changed is refused") {
     failure("sum", [](const std::string& line) { return with_word(line, 7, "1000"); });
     failure("away", [](const std::string& line) { return "# " + line; });
     failure("away", [](const std::string& line) { return with_word(line, 4, "1000"); });
+}
+
+TEST_CASE("a certificate in a file has the same text, and one that is too long is not written") {
+    const auto ordered = visuals::draworder::ordered(read("models/f15.obj"));
+    const models::polygons::FileAxes axes;
+    const visuals::certificate::CertifiedModel bound_to{"model", "0123456789abcdef"};
+    const visuals::certificate::CertifiedOrder proved{ordered.model, ordered.order, axes, bound_to};
+    const std::string text = visuals::certificate::order_certificate(proved).text;
+    const auto file = tests::scratch_folder() / "f15.proof";
+    CHECK(visuals::certificate::write_order_certificate(file, proved, text.size() - 1).is_too_long);
+    CHECK(!path_exists(file));
+    const auto written = visuals::certificate::write_order_certificate(file, proved, text.size());
+    CHECK(written.bytes == text.size());
+    CHECK(written.unproved == 0);
+    CHECK(read_text_file(file) == text);
+    CHECK(!path_exists(file.string() + ".part"));
+}
+
+TEST_CASE("a certificate that ends anywhere before its end is refused with its line") {
+    const std::string text = certificate_of("models/concave.obj").text;
+    const auto file = tests::scratch_folder() / "cut.proof";
+    REQUIRE(text.size() > 500);
+    for (std::size_t bytes = 1; bytes + 1 < text.size(); ++bytes) { // the last byte is the end of a line
+        write_file(file, text.substr(0, bytes));
+        INFO(text.substr(0, bytes));
+        try {
+            const VerificationResult verdict = visuals::verify::verify(visuals::verify::CertificateReader(file));
+            REQUIRE(verdict.failure);
+            CHECK(verdict.failure->line > 0);
+        } catch (const Error& fault) {
+            const std::string named = file.string() + ":";
+            const std::string words = fault.what();
+            REQUIRE(words.starts_with(named));
+            CHECK(words.find_first_not_of("0123456789", named.size()) > named.size());
+        }
+    }
 }

@@ -49,6 +49,29 @@ TEST_CASE("controls follow the motion: roll, load, yaw without bank, loss of spe
     CHECK(position(state, Gear, *ground) == 0.0);
 }
 
+TEST_CASE("gear is never half-way in level flight, and moves on an approach and after take-off") {
+    const auto ground = tests::cell_ground(4, 1000.0, [](double, double) { return 0.0; });
+    sim::AircraftState state;
+    state.body_to_world = body_to_world_from_euler({});
+    const auto gear_at = [&](double height_m, double speed_mps, double climb_mps) {
+        state.position_m = {0.0, 0.0, height_m};
+        state.velocity_mps = {0.0, speed_mps, climb_mps};
+        return position(state, models::FlightControl::Gear, *ground);
+    };
+    for (double height_m = 5.0; height_m < 200.0; height_m += 0.5) {
+        for (const double speed_mps : {60.0, 109.0, 110.0, 114.0}) {
+            const double level = gear_at(height_m, speed_mps, 0.0);
+            CHECK((level == 0.0 || level == 1.0));
+        }
+    }
+    CHECK(gear_at(150.0, 60.0, -3.0) == 0.0);
+    CHECK(gear_at(120.0, 60.0, -3.0) == Approx(0.5));
+    CHECK(gear_at(110.0, 60.0, -3.0) == 1.0);
+    CHECK(gear_at(40.0, 60.0, 5.0) == 1.0);
+    CHECK(gear_at(60.0, 60.0, 5.0) == Approx(0.5));
+    CHECK(gear_at(80.0, 60.0, 5.0) == 0.0);
+}
+
 TEST_CASE("in a coordinated turn the rudder stays in the middle") {
     const auto ground = tests::cell_ground(4, 1000.0, [](double, double) { return 0.0; });
     const double bank_rad = 0.6;

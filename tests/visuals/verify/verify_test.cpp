@@ -243,7 +243,7 @@ TEST_CASE("a certificate of another version or of no model is refused") {
     CHECK(error_of(old) == ":1: expected version 2 of the format (octant draw-order --certificate writes it), got '1'");
     std::string unbound = model + "list 0 1\n";
     unbound.erase(unbound.find("model"), unbound.find("tolerance") - unbound.find("model"));
-    CHECK(error_of(unbound) == ": expected a model, got none");
+    CHECK(error_of(unbound) == ":14: expected a model before here, got none");
     CHECK(error_of(model + "model 1 again\n").starts_with(":14: expected one model"));
 }
 
@@ -257,7 +257,7 @@ TEST_CASE("what is no certificate is refused with its line") {
     CHECK(error_of(model + "polygon 2 0 0 9 0  0 1 2\n") == ":14: expected a normal of length 1, got '9'");
     CHECK(error_of(model + "polygon 2 0 0 1 0  0 1 8\n") == ":14: expected a vertex (0 to 7), got '8'");
     CHECK(error_of(model + "list 0 1 0\n") == ":14: expected each polygon once, got '0'");
-    CHECK(error_of(model) == ": expected at least one list, got none");
+    CHECK(error_of(model) == ":14: expected at least one list before here, got none");
     const std::string two = model + "list 0\nlist 1\n";
     CHECK(error_of(two) == ":15: expected list 1 to be the child of an earlier node, got none");
     CHECK(error_of(two + "node sequence list 0 list 0\n") ==
