@@ -3,6 +3,7 @@
 #include "models/meshfile/mesh_parts.h"
 #include "models/meshfile/texture_store.h"
 #include "models/repair/repair.h"
+#include "models/smooth_normals.h"
 #include "models/triangle_mesh.h"
 #include "sim/base/error.h"
 #include "sim/base/output_file.h"
@@ -17,7 +18,6 @@
 #include "ui/world/mesh_loader.h"
 #include "visuals/refine/active_mesh.h"
 #include "visuals/refine/progressive_file.h"
-#include "visuals/shading/vertex_normals.h"
 
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
@@ -295,8 +295,8 @@ EdgeCounts count_edges(const models::TriangleMesh& mesh) {
             if (is_first) { continue; }
             ++counts.all;
             const auto& [one, two] = other->second;
-            if (visuals::shading::angle_rad(one, normals.first) > same_normal_rad ||
-                visuals::shading::angle_rad(two, normals.second) > same_normal_rad) {
+            if (models::angle_rad(one, normals.first) > same_normal_rad ||
+                models::angle_rad(two, normals.second) > same_normal_rad) {
                 ++counts.hard;
             }
             open.erase(other);
