@@ -162,10 +162,12 @@ std::optional<glm::dvec3> ViewRegion::interior_point() const {
     return glm::dvec3(sum.x, sum.y, sum.z) / sum.w;
 }
 
-/// A facet is redundant when all rays on it lie on another facet, too.
+/// A facet is redundant when all rays on it lie on another facet, too. Where rays are not known well enough to tell, as
+/// in a region thinner than itself, none is.
 std::vector<Plane> ViewRegion::planes() const {
     std::vector<bool> kept(facets_.size(), true);
-    for (std::size_t i = 1; i < facets_.size(); ++i) {
+    const bool is_known = is_well_conditioned_ && interior_point();
+    for (std::size_t i = 1; i < facets_.size() && is_known; ++i) {
         for (std::size_t other = 0; other < facets_.size() && kept[i]; ++other) {
             bool within = other != i && kept[other];
             for (const Ray& ray : rays_) { within = within && (!ray.on[i] || ray.on[other]); }

@@ -50,7 +50,7 @@ Plane through_middle(const glm::dvec3& normal, const std::vector<glm::dvec3>& co
 }
 
 bool fits(const LocalPolygon& polygon, const Plane& plane, double tolerance) {
-    return glm::dot(area_of(polygon.corners), plane.normal) > 0.0 &&
+    return glm::dot(area_of(polygon.corners), plane.normal) >= 0.0 &&
            std::ranges::all_of(polygon.corners, [&](const glm::dvec3& corner) {
                return std::abs(distance_m(plane, corner)) < share_of_borrowed * tolerance;
            });

@@ -174,7 +174,7 @@ bool ExactSides::is_counter_clockwise(std::uint32_t number) const {
         area += dot(normal, cross(last, next));
         last = std::move(next);
     }
-    return area > 0;
+    return area >= 0; // without an area it shows nothing
 }
 
 bool ExactSides::is_impossible(const ExactPlane& plane) const {
