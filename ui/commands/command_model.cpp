@@ -18,6 +18,7 @@
 #include "ui/world/mesh_loader.h"
 #include "visuals/refine/active_mesh.h"
 #include "visuals/refine/progressive_file.h"
+#include "visuals/shading/vertex_normals.h"
 
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
