@@ -26,6 +26,28 @@ namespace octant::visuals::raster {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
+// -- Triangles lie where they were set up, far apart for a tile: they are on their way from memory while others are
+// painted.
+
+constexpr std::size_t triangles_ahead = 4;
+
+/// Calls a triangle from memory, if there is one of that number.
+HWY_INLINE void prefetch_triangle(std::span<const TileTriangle> triangles, std::size_t number) {
+    if (number >= triangles.size()) { return; }
+    const auto call = [](const auto* from) HWY_ATTR {
+        constexpr std::size_t cache_line = 64;
+        const auto* const bytes = reinterpret_cast<const std::uint8_t*>(from);
+        for (std::size_t at = 0; at < sizeof(*from); at += cache_line) { hwy::Prefetch(bytes + at); }
+    };
+    const TileTriangle& one = triangles[number];
+    call(one.triangle);
+    if (one.surface != nullptr) { call(one.surface); }
+    if (one.extra != nullptr) {
+        hwy::Prefetch(&one.extra->depth);
+        hwy::Prefetch(&one.extra->cut_count);
+    }
+}
+
 // -- Coverage: which samples of a tile a triangle covers, a mask of sixteen bits for each pixel.
 
 /// Columns of a row that may be covered.
@@ -492,46 +514,72 @@ HWY_INLINE std::uint16_t samples_showing(std::uint32_t name, const std::uint32_t
     return static_cast<std::uint16_t>(bits);
 }
 
-/// Calls the planes of a triangle from memory, if there is one of that number.
-HWY_INLINE void prefetch_surface(std::span<const TileTriangle> triangles, std::size_t number) {
-    constexpr std::size_t cache_line = 64;
-    if (number >= triangles.size() || triangles[number].surface == nullptr) { return; }
-    const auto* const surface = reinterpret_cast<const std::uint8_t*>(triangles[number].surface);
-    for (std::size_t at = 0; at < sizeof(SurfacePlanes); at += cache_line) { hwy::Prefetch(surface + at); }
-}
-
-/// Makes what is seen of a triangle of a group its coverage.
-HWY_INLINE void cover_seen(const TileTriangle& one, std::uint32_t name, const TileJob& job, TileBuffer& buffer) {
-    const TileBox box(*one.triangle, job);
-    buffer.coverage.first_row = box.first_row;
-    buffer.coverage.last_row = box.last_row;
+/// Lists the samples of the pixels of a group's box by the triangles that they show.
+HWY_INLINE void list_seen(const GroupBox& box, std::size_t triangles, TileBuffer& buffer) {
+    buffer.found.clear();
+    buffer.first_seen.assign(triangles + 2, 0);
     for (int row = box.first_row; row <= box.last_row; ++row) {
-        std::uint16_t* const masks = buffer.masks.data() + static_cast<std::size_t>(row) * TileBuffer::mask_row;
-        int first = box.right + 1;
-        int last = box.left - 1;
         for (int column = box.left; column <= box.right; ++column) {
             const auto pixel = static_cast<std::size_t>(row * tile_width + column);
-            masks[column] = samples_showing(name, buffer.seen.data() + pixel * samples);
-            first = masks[column] != 0 ? std::min(first, column) : first;
-            last = masks[column] != 0 ? column : last;
+            const std::uint32_t* const seen = buffer.seen.data() + pixel * samples;
+            std::uint32_t left = 0xffffU;
+            while (left != 0) {
+                const std::uint32_t name = seen[std::countr_zero(left)];
+                const std::uint32_t showing = samples_showing(name, seen);
+                left &= ~showing;
+                if (name == 0) { continue; }
+                ++buffer.first_seen[name];
+                buffer.found.push_back({name, static_cast<std::uint16_t>(pixel), static_cast<std::uint16_t>(showing)});
+            }
         }
-        std::fill_n(masks + box.right + 1, block_px, std::uint16_t{0});
-        const int blocks = first <= last ? (last - first) / block_px + 1 : 0;
-        buffer.coverage.rows[static_cast<std::size_t>(row)] = {first, last, blocks};
     }
+    std::uint32_t end = 0; // of the pixels of the names so far
+    for (std::uint32_t& first : buffer.first_seen) {
+        const std::uint32_t count = first;
+        first = end;
+        end += count;
+    }
+    buffer.seen_pixels.resize(buffer.found.size());
+    for (const TileBuffer::SeenPixel& one : buffer.found) { buffer.seen_pixels[buffer.first_seen[one.name]++] = one; }
+    // Each entry has moved to the end of its own pixels: to the first of the next name.
+    std::copy_backward(buffer.first_seen.begin(), buffer.first_seen.end() - 1, buffer.first_seen.end());
+    buffer.first_seen.front() = 0;
 }
 
-/// Makes the free samples that show a textured triangle of a group fragments, and covers them.
-HWY_INLINE void take_seen(const TileTriangle& one, std::uint32_t name, const TileJob& job, TileBuffer& buffer) {
-    const TileBox box(*one.triangle, job);
+/// The listed pixels of a triangle, row after row, by its place in the group.
+HWY_INLINE std::span<const TileBuffer::SeenPixel> listed(const TileBuffer& buffer, std::size_t triangle) {
+    const std::uint32_t first = buffer.first_seen[triangle + 1];
+    return std::span(buffer.seen_pixels).subspan(first, buffer.first_seen[triangle + 2] - first);
+}
+
+/// Makes listed samples of a textured triangle fragments, and covers them.
+HWY_INLINE void take_seen(std::span<const TileBuffer::SeenPixel> pixels, const TileJob& job, TileBuffer& buffer) {
     buffer.fragments.count = 0;
-    for (int row = box.first_row; row <= box.last_row; ++row) {
-        for (int column = box.left; column <= box.right; ++column) {
-            const auto pixel = static_cast<std::size_t>(row * tile_width + column);
-            take_fragment(pixel, samples_showing(name, buffer.seen.data() + pixel * samples), buffer);
-        }
+    for (const TileBuffer::SeenPixel& one : pixels) { take_fragment(one.pixel, one.samples, buffer); }
+    note_full_rows(job, pixels.front().pixel / tile_width, pixels.back().pixel / tile_width, buffer);
+}
+
+/// Makes listed samples of a triangle its coverage.
+HWY_INLINE void cover_listed(std::span<const TileBuffer::SeenPixel> pixels, TileBuffer& buffer) {
+    const auto row_of = [](const TileBuffer::SeenPixel& one) { return one.pixel / tile_width; };
+    const auto column_of = [](const TileBuffer::SeenPixel& one) { return one.pixel % tile_width; };
+    Coverage& coverage = buffer.coverage;
+    coverage.first_row = row_of(pixels.front());
+    coverage.last_row = row_of(pixels.back());
+    for (int row = coverage.first_row; row <= coverage.last_row; ++row) {
+        const std::size_t end = static_cast<std::size_t>(
+            std::ranges::find_if(pixels, [&](const auto& one) { return row_of(one) != row; }) - pixels.begin());
+        Coverage::Row& places = coverage.rows[static_cast<std::size_t>(row)];
+        places = {0, -1, 0};
+        if (end == 0) { continue; }
+        places.first = column_of(pixels.front());
+        places.last = column_of(pixels[end - 1]);
+        places.blocks = (places.last - places.first) / block_px + 1;
+        std::uint16_t* const masks = buffer.masks.data() + static_cast<std::size_t>(row) * TileBuffer::mask_row;
+        std::fill_n(masks + places.first, places.blocks * block_px, std::uint16_t{0});
+        for (const TileBuffer::SeenPixel& one : pixels.first(end)) { masks[column_of(one)] = one.samples; }
+        pixels = pixels.subspan(end);
     }
-    note_full_rows(job, box.first_row, box.last_row, buffer);
 }
 
 /// Triangles first .. end - 1 of the job are a group.
@@ -543,6 +591,7 @@ HWY_INLINE void paint_group(
     clear_group(box, buffer);
     const std::size_t transparent_before = buffer.transparent_pixels.size();
     for (std::size_t i = 0; i < group.size(); ++i) {
+        prefetch_triangle(group, i + triangles_ahead);
         cover(group[i], job, lanes, buffer);
         if (group[i].extra->opacity < 1.0F) {
             begin_record(buffer);
@@ -553,14 +602,16 @@ HWY_INLINE void paint_group(
     }
     end_record(transparent_before, buffer);
     // Each of its samples shows one triangle: they are coloured in any order.
+    list_seen(box, group.size(), buffer);
     for (std::size_t i = 0; i < group.size(); ++i) {
-        const auto name = static_cast<std::uint32_t>(i + 1);
+        const auto pixels = listed(buffer, i);
+        prefetch_triangle(group, i + triangles_ahead);
+        if (pixels.empty()) { continue; }
         if (group[i].surface != nullptr) {
-            prefetch_surface(group, i + 2);
-            take_seen(group[i], name, job, buffer);
+            take_seen(pixels, job, buffer);
             add_fragments(group[i], job, buffer);
         } else {
-            cover_seen(group[i], name, job, buffer);
+            cover_listed(pixels, buffer);
             fill(group[i], job, buffer);
         }
     }

@@ -164,7 +164,17 @@ struct TileBuffer {
     std::size_t waiting = 0;
     // Of groups that are drawn by depth: a value for each sample.
     std::vector<float> depth;
-    std::vector<std::uint32_t> seen; ///< place in the tile's list, from 1; 0: nothing
+    std::vector<std::uint32_t> seen; ///< place in the group's list, from 1; 0: nothing
+    /// Samples of a pixel that show one triangle of a group.
+    struct SeenPixel {
+        std::uint32_t name = 0; ///< as in `seen`
+        std::uint16_t pixel = 0;
+        std::uint16_t samples = 0;
+    };
+    std::vector<SeenPixel> found;       ///< pixel after pixel
+    std::vector<SeenPixel> seen_pixels; ///< the same, triangle after triangle
+    std::vector<std::uint32_t>
+        first_seen; ///< for each name the first of its seen_pixels, and the end of the last one's
     /// What is seen of transparent triangles: those of the nearest group first, in a group in painting order.
     std::vector<TransparentPixel> transparent_pixels;
     std::vector<std::size_t> group_first_transparent; ///< of each group that has any

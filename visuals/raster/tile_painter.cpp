@@ -45,7 +45,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
-#include <hwy/cache_control.h>
 #include <hwy/highway.h>
 #include <hwy/targets.h>
 
@@ -285,22 +284,10 @@ HWY_INLINE void paint_one(const TileTriangle& one, const TileJob& job, const Sam
     }
 }
 
-/// Triangles lie where they were set up, far apart for a tile: they are on their way from memory while others are
-/// painted.
-HWY_INLINE void prefetch_triangle(const TileJob& job, std::size_t end) {
-    constexpr std::size_t ahead = 4;
-    constexpr std::size_t cache_line = 64;
-    if (end >= ahead) {
-        const auto* const from = reinterpret_cast<const std::uint8_t*>(job.triangles[end - ahead].triangle);
-        for (std::size_t at = 0; at < sizeof(Triangle); at += cache_line) { hwy::Prefetch(from + at); }
-        prefetch_surface(job.triangles, end - ahead);
-    }
-}
-
 HWY_INLINE void paint_near_to_far(const TileJob& job, const SampleLanes& lanes, TileBuffer& buffer) {
     std::size_t end = job.triangles.size();
     while (end > 0 && buffer.full_rows != job.full_rows()) {
-        prefetch_triangle(job, end);
+        if (end >= triangles_ahead) { prefetch_triangle(job.triangles, end - triangles_ahead); }
         const std::uint16_t group = job.triangles[end - 1].triangle->group;
         std::size_t first = end - 1;
         if (is_blended_in_order(job.triangles[first])) {
@@ -397,9 +384,11 @@ HWY_INLINE void count_group(const TileJob& job, const std::array<std::size_t, 2>
         cover(group[i], job, lanes, buffer);
         draw_by_depth(group[i], static_cast<std::uint32_t>(i + 1), job, lanes, buffer);
     }
+    list_seen(box, group.size(), buffer);
     for (std::size_t i = 0; i < group.size(); ++i) {
-        if (group[i].triangle->is_under_side) { continue; }
-        cover_seen(group[i], static_cast<std::uint32_t>(i + 1), job, buffer);
+        const auto pixels = listed(buffer, i);
+        if (pixels.empty()) { continue; }
+        cover_listed(pixels, buffer);
         count_covered(job, owners, *group[i].triangle, buffer, [](const glm::ivec2&) { return true; });
     }
 }

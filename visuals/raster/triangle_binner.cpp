@@ -14,6 +14,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <hwy/cache_control.h>
 #include <span>
 #include <vector>
 
@@ -65,6 +66,14 @@ void set_surface(const std::array<std::uint32_t, 3>& corners, const DrawSlice& s
     surface.texture = &slice.textures[texture - 1];
     for (std::size_t k = 0; k < 3; ++k) { surface.places[k] = slice.of_model[corners[k]].on_texture; }
     setup.set_surface(&surface);
+}
+
+/// Calls the vertices of a triangle that is set up later, which lie anywhere in their model, from memory.
+void prefetch_places(const DrawSlice& slice, std::size_t first_index) {
+    constexpr std::size_t ahead = std::size_t{3} * 8;
+    for (std::size_t i = first_index + ahead; i < std::min(first_index + ahead + 3, slice.indices.size()); ++i) {
+        hwy::Prefetch(&slice.of_model[slice.indices[i]].texture);
+    }
 }
 
 /// How often the ground's sample spacing is doubled to reach the longest edge of a triangle: log2 of their ratio.
@@ -193,7 +202,11 @@ void TriangleBinner::set_up(const FrameInput& input, Batch& batch, TriangleSetup
             setup.set_source(source++);
             const FlatColour* const flat =
                 slice.is_aircraft ? &flat_[static_cast<std::size_t>(slice.first_flat + a)] : nullptr;
-            if (!slice.textures.empty()) { set_surface({a, b, c}, slice, *flat, surface, setup); }
+            if (slice.style.culls_back_faces && flat != nullptr && flat->is_back_facing()) { continue; }
+            if (!slice.textures.empty()) {
+                prefetch_places(slice, i);
+                set_surface({a, b, c}, slice, *flat, surface, setup);
+            }
             setup.add(corners, {vertex(a), vertex(b), vertex(c)}, flat, batch.list);
         }
         setup.set_surface(nullptr);

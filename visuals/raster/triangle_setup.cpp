@@ -133,7 +133,6 @@ TriangleSetup::TriangleSetup(const Projection& projection, const scene::FramePla
 
 void TriangleSetup::add(const VertexOutputs& corners, const std::array<std::uint32_t, 3>& triangle,
     const FlatColour* flat, TriangleList& list) {
-    if (style_.culls_back_faces && flat != nullptr && flat->is_back_facing()) { return; }
     const auto& vertices = corners.vertices;
     const auto [a, b, c] = triangle;
     constexpr std::uint32_t sides = left_of_view | right_of_view | above_view | below_view;
