@@ -39,6 +39,8 @@ struct SiteConditions {
     float summer_share = 1.0F;
     /// As nature::Climate has it, less in high mountains.
     float dryness = 0.0F;
+    /// How far steep ground is bare, in strata, as in deserts: 0..1. Half-dry climates have little else.
+    float bareness = 0.0F;
 };
 
 /// What covers a place of temperate ground, shares 0..1.
@@ -248,7 +250,7 @@ LandCover land_cover(const SiteConditions& site) {
     cover.below_tree_line =
         1.0F - glm::smoothstep(tree_line_m - 200.0F, tree_line_m + 200.0F, tree_line_height_m(site));
     const float level = 1.0F - glm::smoothstep(0.0010F, 0.0035F, site.steepness);
-    const float moist = 1.0F - glm::smoothstep(0.35F, 0.75F, site.dryness);
+    const float moist = 1.0F - glm::smoothstep(0.35F, 0.65F, site.dryness);
     const float arable = site.summer_share * cover.below_tree_line * level * moist;
     if (arable > 0.0F) {
         cover.farmland =
@@ -260,7 +262,8 @@ LandCover land_cover(const SiteConditions& site) {
                              0.55F * (1.0F - site.summer_share) - 0.7F * site.dryness;
         cover.forest_share = glm::smoothstep(0.0F, 0.16F, growth) * cover.below_tree_line * wild;
     }
-    cover.rock_share = glm::smoothstep(0.14F, 0.30F, site.steepness + 0.03F * site.patchiness);
+    cover.rock_share = glm::smoothstep(glm::mix(0.14F, 0.07F, site.bareness), glm::mix(0.30F, 0.26F, site.bareness),
+        site.steepness + 0.03F * site.patchiness);
     return cover;
 }
 
@@ -282,9 +285,24 @@ float scree_cover(const SiteConditions& site) {
 /// The share of a place that loose stones show, from scree_cover().
 constexpr float scree_share = 0.6F;
 
+/// Own colour of bare rock of dry climates, display values: layers by height above the water.
+glm::vec3 strata_colour(const SiteConditions& site) {
+    const float height_m = site.height_m + 12.0F * site.patchiness;
+    const auto layer = [&](float thickness_m, int which) {
+        return lattice_noise(cell_of(height_m, thickness_m), which);
+    };
+    // A footprint reaches as far down as the ground is steep.
+    const float down_m = site.footprint_m * std::min(std::sqrt(2.0F * site.steepness), 1.0F);
+    const float ledges = visible_contrast(2.0F * ledge_m, down_m) * (layer(ledge_m, 11) - 0.5F) +
+                         visible_contrast(2.0F * bed_m, down_m) * (layer(bed_m, 13) - 0.5F);
+    return glm::mix(glm::vec3(0.55F, 0.30F, 0.19F), glm::vec3(0.78F, 0.62F, 0.45F), layer(band_m, 7)) *
+           (1.0F + 0.22F * ledges) * mottling(site, 40.0F, 0.07F);
+}
+
 /// The colour of temperate ground before light falls on it, display values. The height of the place is what
-/// temperate_height_m() gives; `cover` and `stones` are what land_cover() and scree_cover() give.
-glm::vec3 temperate_colour(const SiteConditions& site, const LandCover& cover, float stones) {
+/// temperate_height_m() gives; `cover` and `stones` are what land_cover() and scree_cover() give, `strata` what
+/// strata_colour() does.
+glm::vec3 temperate_colour(const SiteConditions& site, const LandCover& cover, float stones, const glm::vec3& strata) {
     glm::vec3 colour(0.0F);
     if (cover.farmland < 1.0F) {
         const float dryness = 0.5F + 0.5F * patch_noise(site.east_m + 1e5F, site.north_m, 1660.0F);
@@ -301,8 +319,8 @@ glm::vec3 temperate_colour(const SiteConditions& site, const LandCover& cover, f
     }
     if (stones > 0.0F) { colour = glm::mix(colour, scree * mottling(site, 20.0F, 0.10F), scree_share * stones); }
     if (cover.rock_share > 0.0F) {
-        const glm::vec3 rock = temperate_rock * (1.0F + 0.10F * site.patchiness);
-        colour = glm::mix(colour, rock * mottling(site, 60.0F, 0.13F), cover.rock_share);
+        const glm::vec3 rock = temperate_rock * (1.0F + 0.10F * site.patchiness) * mottling(site, 60.0F, 0.13F);
+        colour = glm::mix(colour, glm::mix(rock, strata, site.bareness), cover.rock_share);
     }
     return colour;
 }
@@ -314,21 +332,11 @@ float shrub_cover(const SiteConditions& site) {
 
 float arid_rock(const SiteConditions& site) { return glm::smoothstep(0.05F, 0.25F, site.steepness); }
 
-/// Own colour of desert ground, display values.
-glm::vec3 arid_colour(const SiteConditions& site) {
+/// Own colour of desert ground, display values; `strata`: strata_colour().
+glm::vec3 arid_colour(const SiteConditions& site, const glm::vec3& strata) {
     const glm::vec3 level = stop_colour(arid_stops, site.height_m + 60.0F * site.patchiness);
-    const float height_m = site.height_m + 12.0F * site.patchiness;
-    const auto layer = [&](float thickness_m, int which) {
-        return lattice_noise(cell_of(height_m, thickness_m), which);
-    };
-    // A footprint reaches as far down as the ground is steep.
-    const float down_m = site.footprint_m * std::min(std::sqrt(2.0F * site.steepness), 1.0F);
-    const float ledges = visible_contrast(2.0F * ledge_m, down_m) * (layer(ledge_m, 11) - 0.5F) +
-                         visible_contrast(2.0F * bed_m, down_m) * (layer(bed_m, 13) - 0.5F);
-    const glm::vec3 rock = glm::mix(glm::vec3(0.55F, 0.30F, 0.19F), glm::vec3(0.78F, 0.62F, 0.45F), layer(band_m, 7)) *
-                           (1.0F + 0.22F * ledges) * mottling(site, 40.0F, 0.07F);
     const glm::vec3 vegetated = glm::mix(level, shrubs, shrub_share * shrub_cover(site)) * mottling(site, 90.0F, 0.09F);
-    return glm::mix(vegetated, rock, arid_rock(site)) * (1.0F + 0.10F * site.patchiness);
+    return glm::mix(vegetated, strata, arid_rock(site)) * (1.0F + 0.10F * site.patchiness);
 }
 
 /// Own colour of ground on which nothing but this dust lies, display values: bare where it is steep.
@@ -380,10 +388,13 @@ std::array<scene::LandCover, scene::LandCoverContrast::covers> mixed_covers(floa
 /// The share of desert ground that a climate or place of some dryness shows; the rest is grass and shrubs.
 float arid_share_of(float dryness) { return glm::smoothstep(0.5F, 0.95F, dryness); }
 
+/// SiteConditions::bareness of a climate: of steppes on.
+float bareness_of(float dryness) { return glm::smoothstep(0.40F, 0.52F, dryness); }
+
 /// Mountains of half-dry climates have more rain than the plains around them; deserts stay dry.
 float dryness_at(float height_m, float dryness) {
     const float wetter =
-        0.6F * glm::smoothstep(1500.0F, 2800.0F, height_m) * (1.0F - glm::smoothstep(0.7F, 0.9F, dryness));
+        0.6F * glm::smoothstep(2200.0F, 3400.0F, height_m) * (1.0F - glm::smoothstep(0.7F, 0.9F, dryness));
     return dryness * (1.0F - wetter);
 }
 
@@ -401,9 +412,9 @@ glm::vec3 direction_to_sun(const scene::AirSettings& settings) {
         std::cos(elevation_rad) * std::cos(azimuth_rad), std::sin(elevation_rad)));
 }
 
-nature::Daylight daylight_of(const scene::AirSettings& settings) {
-    return nature::Daylight(
-        {rad_from_deg(settings.sun_azimuth_deg), rad_from_deg(settings.sun_elevation_deg), settings.background});
+nature::Daylight daylight_of(const scene::AirSettings& settings, const nature::Climate& climate) {
+    return nature::Daylight({rad_from_deg(settings.sun_azimuth_deg), rad_from_deg(settings.sun_elevation_deg),
+        settings.background, climate.has_dusty_air ? climate.dust : std::nullopt});
 }
 
 glm::vec3 illumination(const glm::vec3& normal, const nature::Daylight& day) {
@@ -448,15 +459,17 @@ GroundPalette::Cover GroundPalette::cover(const TerrainPoint& point, float footp
     if (climate_.dust) { return {dust_colour(site, *climate_.dust), dust_cover_code(site)}; }
     const float white = snow_share(site, point.normal, climate_, open_sky);
     site.dryness = dryness_at(site.height_m, climate_.dryness);
+    site.bareness = bareness_of(climate_.dryness);
+    const glm::vec3 strata = site.bareness > 0.0F ? strata_colour(site) : glm::vec3(0.0F);
     const float arid_share = arid_share_of(site.dryness);
     Cover bare;
-    if (arid_share > 0.0F) { bare = {arid_colour(site), arid_cover_code(site)}; }
+    if (arid_share > 0.0F) { bare = {arid_colour(site, strata), arid_cover_code(site)}; }
     if (arid_share < 1.0F) {
         site.height_m = temperate_height_m(site.height_m, climate_);
         site.summer_share = summer_share_of(climate_);
         const LandCover cover = land_cover(site);
         const float stones = scree_cover(site);
-        bare.albedo = glm::mix(temperate_colour(site, cover, stones), bare.albedo, arid_share);
+        bare.albedo = glm::mix(temperate_colour(site, cover, stones, strata), bare.albedo, arid_share);
         bare.code = glm::mix(temperate_cover_code(cover, stones), bare.code, arid_share);
     }
     return {glm::mix(bare.albedo, snow_colour, white), glm::mix(bare.code, snow_code, white)};

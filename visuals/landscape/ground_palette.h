@@ -35,8 +35,8 @@ struct TerrainPoint {
 /// Unit vector towards the sun, world axes. Azimuth clockwise from north.
 glm::vec3 direction_to_sun(const scene::AirSettings& settings);
 
-/// Colours of sky, haze and light under the settings' sun.
-nature::Daylight daylight_of(const scene::AirSettings& settings);
+/// Colours of sky, haze and light under the settings' sun. On Mars dust colours the sky.
+nature::Daylight daylight_of(const scene::AirSettings& settings, const nature::Climate& climate = {});
 
 /// The factor of light on the colour of a surface. `normal`: unit vector, world axes.
 glm::vec3 illumination(const glm::vec3& normal, const nature::Daylight& day);

@@ -17,6 +17,7 @@ struct Climate {
     /// Display colour of the dust on another planet or moon, where there is nothing else: no water, plants, snow or
     /// people. Nothing on the earth.
     std::optional<glm::vec3> dust = {};
+    bool has_dusty_air = false; ///< as Mars has
 
     bool is_arid() const { return dryness > 0.75F; }
 };

@@ -111,10 +111,11 @@ constexpr double eye_power = 0.6;           ///< how far the eye makes up for lo
 const glm::dvec3 low_tint(1.0, 0.88, 1.28); ///< a low sun's sky is less green than the model's
 
 /// The model's skies around a low sun are lemon and green: where red is stronger than blue, green keeps between both,
-/// nearer to red, and blue is not lost. `low`: 1 for a sun at the horizon, 0 for one that is high.
+/// nearer to red, and blue is not lost. `light`: linear, as it is displayed; `low`: 1 for a sun at the horizon, 0 for
+/// one that is high.
 glm::dvec3 without_lemon(const glm::dvec3& light, double low) {
-    const double blue = std::max(light.z, 0.2 * light.x);
-    const double green = std::min(light.y, glm::mix(light.x, blue, 0.54));
+    const double blue = std::max(light.z, 0.3 * light.x);
+    const double green = std::min(light.y, glm::mix(light.x, blue, 0.58));
     return glm::mix(light, glm::dvec3(light.x, light.x > light.z ? green : light.y, blue), low);
 }
 
@@ -163,6 +164,10 @@ glm::dvec3 sky_tint(const PerezSky& sky, const glm::dvec3& exposure) {
 
 Daylight::Daylight(const DaylightOptions& options)
     : sky_(std::max(options.sun_elevation_rad, 0.0), turbidity), sun_azimuth_rad_(options.sun_azimuth_rad) {
+    if (options.dust) {
+        const glm::dvec3 tint = glm::sqrt(models::linear_from_srgb(glm::dvec3(*options.dust)));
+        air_tint_ = tint / glm::dot(tint, weights);
+    }
     const double elevation_rad = std::max(options.sun_elevation_rad, 0.0);
     const glm::dvec2 level(std::sin(sun_azimuth_rad_), std::cos(sun_azimuth_rad_));
     to_sun_ = {std::cos(elevation_rad) * level.x, std::cos(elevation_rad) * level.y, std::sin(elevation_rad)};
@@ -184,8 +189,11 @@ Daylight::Daylight(const DaylightOptions& options)
 }
 
 glm::vec3 Daylight::displayed(const glm::dvec3& light) const {
-    const glm::dvec3 seen = without_lemon(exposure_ * light, low_);
-    return glm::vec3(models::srgb_from_linear(glm::dvec3(1.0) - glm::exp(-seen)));
+    const glm::dvec3 exposed = exposure_ * light;
+    if (air_tint_) {
+        return glm::vec3(models::srgb_from_linear(1.0 - glm::exp(-glm::dot(exposed, weights) * *air_tint_)));
+    }
+    return glm::vec3(models::srgb_from_linear(without_lemon(1.0 - glm::exp(-exposed), low_)));
 }
 
 glm::vec3 Daylight::perez(double elevation_rad, double azimuth_rad) const {
@@ -224,6 +232,9 @@ constexpr float slope_variance = 0.02F;
 /// Waves that face the eye hide those behind: at grazing angles less is reflected than off glass.
 constexpr float max_reflected = 0.75F;
 constexpr float glitter = 0.9F; ///< of the sun's colour in the middle of its path
+/// Least half width of the sun's path as seen, radians: colours are known at corners of triangles as wide as this. A
+/// wider path is as much fainter.
+constexpr float min_path_rad = 0.14F;
 
 } // namespace
 
@@ -256,7 +267,9 @@ glm::vec3 WaterReflection::shaded_colour(const glm::vec3& own, const glm::vec3& 
     const glm::vec3 facet = to_sun_ - way;
     const float across2 = facet.x * facet.x + facet.y * facet.y;
     const float slope2 = across2 / std::max(facet.z * facet.z, 1e-6F);
-    const float sparkle = std::exp(-slope2 / slope_variance) * glitter;
+    const float least = min_path_rad / std::max(facet.z, min_path_rad);
+    const float variance = std::max(slope_variance, least * least);
+    const float sparkle = std::exp(-slope2 / variance) * glitter * std::sqrt(slope_variance / variance);
     const glm::vec3 colour = glm::mix(own, sky({way.x, way.y, std::max(-way.z, 0.02F)}), reflected) + sun_ * sparkle;
     return glm::min(colour, glm::vec3(1.0F));
 }

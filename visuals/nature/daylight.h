@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstddef>
+#include <optional>
 
 namespace octant::visuals::nature {
 
@@ -40,6 +41,8 @@ struct DaylightOptions {
     double sun_azimuth_rad = 0.0;           ///< clockwise from north
     double sun_elevation_rad = 0.6;         ///< negative values count as 0
     glm::vec3 horizon{0.62F, 0.72F, 0.84F}; ///< display values
+    /// Display colour of dust that fills the air and colours the sky, as on Mars; nothing in clear air.
+    std::optional<glm::vec3> dust = {};
 };
 
 /// Colours of the sky, the haze and the light for one position of the sun, display values. Under a low sun they are
@@ -86,8 +89,9 @@ private:
     double sun_azimuth_rad_;
     glm::dvec3 to_sun_;
     glm::dvec2 horizontal_to_sun_{0.0};
-    glm::dvec3 exposure_{1.0}; ///< of red, green and blue
-    double low_ = 0.0;         ///< 1 for a sun at the horizon, 0 for one that is high
+    glm::dvec3 exposure_{1.0};           ///< of red, green and blue
+    std::optional<glm::dvec3> air_tint_; ///< of luminance 1, by dust
+    double low_ = 0.0;                   ///< 1 for a sun at the horizon, 0 for one that is high
     glm::vec3 ambient_{0.0F};
     glm::vec3 sunlight_{0.0F};
     glm::vec3 haze_away_{0.0F};

@@ -329,10 +329,15 @@ double distance_to_edge_m(const landscape::Ground& ground, const glm::dvec3& eye
     return std::max(std::min(half_m.x - std::abs(eye_m.x), half_m.y - std::abs(eye_m.y)), 0.0);
 }
 
+nature::Daylight daylight_over(const landscape::Ground& ground, const scene::AirSettings& settings) {
+    const auto source = ground.source();
+    return landscape::daylight_of(settings, landscape::climate_at(source ? source->place : std::nullopt));
+}
+
 } // namespace
 
 Atmosphere::Atmosphere(const Scene& scene, const scene::AirSettings& settings)
-    : scene_(scene), settings_(settings), daylight_(landscape::daylight_of(settings)),
+    : scene_(scene), settings_(settings), daylight_(daylight_over(*scene.ground, settings)),
       to_sun_(landscape::direction_to_sun(settings)), haze_(haze_of(settings, daylight_)),
       sky_(daylight_, settings.sky ? scene.ground->backdrop() : nature::Backdrop()) {}
 

@@ -1,6 +1,6 @@
 // The detail texture of ground, added when all triangles of a tile are painted. In this order: inverse depth between
-// the pixels that recorded it; positions in the pattern; the pattern looked up for a row; the contrast of each land
-// cover; the whole tile. Included once for each instruction set.
+// the pixels that recorded it; positions in the pattern; the pattern looked up for a row; the change of each pixel's
+// colour; the whole tile. Included once for each instruction set.
 #if defined(OCTANT_RASTER_DETAIL_TEXTURE_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef OCTANT_RASTER_DETAIL_TEXTURE_INL
 #undef OCTANT_RASTER_DETAIL_TEXTURE_INL
@@ -370,21 +370,46 @@ private:
 
 // -- The pattern sampled for one row of a tile.
 
+/// Where a level of each pixel's own lies in the image.
+struct OwnLevel {
+    hn::Vec<PixelPairBits> level;
+
+    HWY_INLINE hn::Vec<PixelPairBits> last_texel() const { return hn::Shr(pair_bits(DetailImage::side - 1), level); }
+
+    /// A row of the first layer, counted through all levels.
+    HWY_INLINE hn::Vec<PixelPairBits> row(hn::Vec<PixelPairBits> in_level) const {
+        const auto all_rows = pair_bits(2 * DetailImage::rows);
+        return hn::Add(hn::Sub(all_rows, hn::Shr(all_rows, level)), in_level);
+    }
+
+    HWY_INLINE hn::Vec<PixelPairBits> rows(hn::Vec<PixelPairBits> layers) const {
+        return hn::Shl(layers, hn::Sub(pair_bits(6), level));
+    }
+};
+
+/// The finest level for all pixels.
+struct FinestLevel {
+    HWY_INLINE hn::Vec<PixelPairBits> last_texel() const { return pair_bits(DetailImage::side - 1); }
+
+    HWY_INLINE hn::Vec<PixelPairBits> row(hn::Vec<PixelPairBits> in_level) const { return in_level; }
+
+    HWY_INLINE hn::Vec<PixelPairBits> rows(hn::Vec<PixelPairBits> layers) const { return hn::ShiftLeft<6>(layers); }
+};
+
 /// The pattern at places of a level of each, mixed from eight texels: 2^-15, from -1 to 1. Places are as
 /// DetailPositions::fine.
+template <class Level>
 HWY_INLINE hn::Vec<PixelPairInts> sample_detail_level(
-    const DetailImage& image, const std::array<hn::Vec<PixelPairBits>, 3>& place, hn::Vec<PixelPairBits> level) {
+    const DetailImage& image, const std::array<hn::Vec<PixelPairBits>, 3>& place, const Level& level) {
     const PixelPairBits bits;
     const hn::Repartition<std::uint16_t, PixelPairBits> halves;
     static_assert(DetailImage::side == 1 << 6 && DetailImage::stride == DetailImage::side + 1);
-    const auto last = hn::Shr(pair_bits(DetailImage::side - 1), level);
+    const auto last = level.last_texel();
     const auto whole = [&](std::size_t axis) HWY_ATTR { return hn::ShiftRight<8>(place[axis]); };
     const auto column = hn::And(whole(0), last);
-    const auto all_rows = pair_bits(2 * DetailImage::rows);
-    const auto row = hn::Add(hn::Sub(all_rows, hn::Shr(all_rows, level)), hn::And(whole(1), last));
-    const auto layer_shift = hn::Sub(pair_bits(6), level);
+    const auto row = level.row(hn::And(whole(1), last));
     const auto four_of = [&](hn::Vec<PixelPairBits> layer) HWY_ATTR {
-        const auto row_of_layer = hn::Add(row, hn::Shl(hn::And(layer, last), layer_shift));
+        const auto row_of_layer = hn::Add(row, level.rows(hn::And(layer, last)));
         const auto texel = hn::Add(hn::Add(hn::ShiftLeft<6>(row_of_layer), row_of_layer), column);
         return hn::GatherOffset(bits, reinterpret_cast<const std::uint32_t*>(image.texels()),
             hn::BitCast(PixelPairInts(), hn::Add(texel, texel)));
@@ -462,16 +487,20 @@ HWY_INLINE hn::Vec<PixelPairBits> sample_detail(const DetailImage& image, const 
         const auto along = [&](std::size_t axis) HWY_ATTR {
             return hn::Sub(hn::Shr(hn::BitCast(bits, places.fine[axis]), of), half_texel);
         };
-        return sample_detail_level(image, {along(0), along(1), along(2)}, of);
+        return sample_detail_level(image, {along(0), along(1), along(2)}, OwnLevel{of});
     };
     const auto on_coarse = [&](std::size_t axis) HWY_ATTR {
         const auto texels = hn::ShiftRight<scene::DetailPattern::levels_per_scale>(places.fine[axis]);
         return hn::Sub(hn::BitCast(bits, texels), half_texel);
     };
-    const auto coarse = sample_detail_level(image, {on_coarse(1), on_coarse(2), on_coarse(0)}, hn::Zero(bits));
-    const auto fine = at_level(level);
     const auto through = hn::BitCast(whole, hn::And(hn::ShiftRight<17>(places.level), pair_bits(0xff)));
     const auto before = hn::Sub(all, through);
+    const auto fine = at_level(level);
+    // Nearest to the eye the finest level is seen alone.
+    auto coarse = hn::Zero(whole);
+    if (!hn::AllTrue(whole, hn::Eq(through, hn::Zero(whole)))) {
+        coarse = sample_detail_level(image, {on_coarse(1), on_coarse(2), on_coarse(0)}, FinestLevel());
+    }
     const auto both = hn::Add(share_of(fine, hn::Sub(all, share_of(through, through))),
         share_of(coarse, hn::Sub(all, share_of(before, before))));
     const auto limited = hn::Min(hn::Max(both, hn::Set(whole, -32768)), hn::Set(whole, 32767));
@@ -479,35 +508,9 @@ HWY_INLINE hn::Vec<PixelPairBits> sample_detail(const DetailImage& image, const 
     return hn::IfThenZeroElse(hn::Eq(places.left, hn::Zero(bits)), seen);
 }
 
-/// Samples of the detail texture for the pairs of pixels of a row and of the next row.
+/// Samples of the detail texture for the pairs of pixels of a row, and for the pair right of the tile.
 struct DetailRow {
     alignas(64) std::array<std::uint32_t, pairs_per_row + 16> seen;
-
-    /// Between two rows.
-    HWY_INLINE void put_between(const DetailRow& above, const DetailRow& below) {
-        for (std::size_t two = 0; two < pairs_per_row; two += pairs_at_once) {
-            const auto of = [&](const DetailRow& row) HWY_ATTR { return hn::Load(PixelPairBits(), &row.seen[two]); };
-            hn::Store(seen_between(of(above), of(below)), PixelPairBits(), &seen[two]);
-        }
-        seen[pairs_per_row] = below.seen[pairs_per_row];
-    }
-
-private:
-    /// In the middle between pairs that see ground; none between others. The mean of places that differ varies less
-    /// than the pattern does: as much is added as they differ by.
-    static HWY_INLINE hn::Vec<PixelPairBits> seen_between(hn::Vec<PixelPairBits> one, hn::Vec<PixelPairBits> other) {
-        const PixelPairBits bits;
-        const PixelPairHalves halves;
-        const auto half = [&](hn::Vec<PixelPairBits> of)
-                              HWY_ATTR { return hn::ShiftRight<1>(hn::BitCast(halves, of)); };
-        const auto mean = hn::Add(half(one), half(other));
-        const auto apart = hn::Abs(hn::Sub(half(one), half(other)));
-        const auto more = hn::ShiftLeft<1>(hn::MulHigh(mean, apart));
-        const auto pattern = hn::BitCast(halves, pair_bits(0xffff0000U));
-        const auto both = hn::SaturatedAdd(mean, hn::And(more, pattern));
-        const auto is_none = hn::Or(hn::Eq(one, hn::Zero(bits)), hn::Eq(other, hn::Zero(bits)));
-        return hn::IfThenZeroElse(is_none, hn::BitCast(bits, both));
-    }
 };
 
 /// Finds what the pairs of every second row of a tile see, and those of the row below it. Where they look is found by
@@ -543,11 +546,19 @@ public:
         int row, const DetailPositionRow& above, const DetailPositionRow& below, DetailRow& detail_texture) const {
         const DetailImage& image = detail_image();
         for (std::size_t i = 0; i < pairs_per_phase; i += pairs_at_once) {
-            const bool is_found = row % 2 == 0;
-            const auto even =
-                sample_detail(image, is_found ? above.places(i) : interpolated_at({row, 0, i}, above, below));
-            const auto odd = sample_detail(image, interpolated_at({row, 1, i}, above, below));
-            hn::StoreInterleaved2(even, odd, PixelPairBits(), &detail_texture.seen[phases * i]);
+            const DetailPositions a = above.places(i);
+            const DetailPositions b = above.places(i + 1);
+            const auto looked_up = [&](const DetailPositions& even, const DetailPositions& odd) HWY_ATTR {
+                hn::StoreInterleaved2(sample_detail(image, even), sample_detail(image, odd), PixelPairBits(),
+                    &detail_texture.seen[phases * i]);
+            };
+            if (row % 2 == 0) {
+                looked_up(a, interpolated_at({row, 1, i}, std::array{a, b}));
+            } else {
+                const DetailPositions c = below.places(i);
+                looked_up(interpolated_at({row, 0, i}, std::array{a, c}),
+                    interpolated_at({row, 1, i}, std::array{a, b, c, below.places(i + 1)}));
+            }
         }
         detail_texture.seen[pairs_per_row] = right_edge_values_[right_edge_row(row)];
     }
@@ -570,31 +581,34 @@ private:
         return look.places(*job_.detail_texture, haze_per_depth_);
     }
 
-    /// Of pairs in the middle of others that are found.
+    /// Of pairs in the middle of two or four others that are found.
+    template <std::size_t count>
     HWY_INLINE DetailPositions interpolated_at(
-        const PairStart& from, const DetailPositionRow& above, const DetailPositionRow& below) const {
+        const PairStart& from, const std::array<DetailPositions, count>& around) const {
         const PixelPairBits bits;
         const PixelPairInts whole;
         const InterpolatedPairs pairs = inverse_depths_.interpolated_at(from.row, from.phase, from.first);
         const auto is_ground = hn::RebindMask(bits, pairs.is_ground);
-        const DetailPositions a = above.places(from.first);
-        const DetailPositions b = above.places(from.first + from.phase);
-        const DetailPositions c = below.places(from.first);
-        const DetailPositions d = below.places(from.first + from.phase);
-        const auto differs =
-            hn::And(hn::Or(hn::Xor(a.level, b.level), hn::Or(hn::Xor(a.level, c.level), hn::Xor(a.level, d.level))),
-                pair_bits(~0U << DetailPositions::scale_shift | DetailPositions::ground));
-        const auto has_none = hn::AndNot(a.level, pair_bits(DetailPositions::ground));
+        const hn::Vec<PixelPairBits> first = around[0].level;
+        auto differs = hn::Zero(bits);
+        for (std::size_t i = 1; i < count; ++i) { differs = hn::Or(differs, hn::Xor(first, around[i].level)); }
+        differs = hn::And(differs, pair_bits(~0U << DetailPositions::scale_shift | DetailPositions::ground));
+        const auto has_none = hn::AndNot(first, pair_bits(DetailPositions::ground));
         const auto is_alike =
             hn::And(hn::RebindMask(bits, pairs.is_linear), hn::Eq(hn::Or(differs, has_none), hn::Zero(bits)));
-        const auto mean = [&](auto i, auto j, auto k, auto l)
-                              HWY_ATTR { return hn::ShiftRight<2>(hn::Add(hn::Add(i, j), hn::Add(k, l))); };
+        const auto mean = [&](auto part_of) HWY_ATTR {
+            static_assert(count == 2 || count == 4);
+            auto sum = hn::Add(part_of(around[0]), part_of(around[1]));
+            if constexpr (count == 4) { sum = hn::Add(sum, hn::Add(part_of(around[2]), part_of(around[3]))); }
+            return hn::ShiftRight<count / 2>(sum);
+        };
         const auto flag = pair_bits(DetailPositions::ground);
-        const auto level = hn::AndNot(flag, mean(a.level, b.level, c.level, d.level));
-        DetailPositions places{a.fine, hn::Or(level, hn::And(a.level, flag)),
-            hn::IfThenElseZero(is_ground, mean(a.left, b.left, c.left, d.left))};
+        const auto level = hn::AndNot(flag, mean([](const DetailPositions& of) HWY_ATTR { return of.level; }));
+        const auto left = mean([](const DetailPositions& of) HWY_ATTR { return of.left; });
+        DetailPositions places{
+            around[0].fine, hn::Or(level, hn::And(first, flag)), hn::IfThenElseZero(is_ground, left)};
         for (std::size_t axis = 0; axis < 3; ++axis) {
-            places.fine[axis] = mean(a.fine[axis], b.fine[axis], c.fine[axis], d.fine[axis]);
+            places.fine[axis] = mean([axis](const DetailPositions& of) HWY_ATTR { return of.fine[axis]; });
         }
         const auto is_other = hn::AndNot(is_alike, is_ground);
         if (!hn::AllFalse(bits, is_other)) {
@@ -618,76 +632,134 @@ private:
     alignas(64) std::array<std::uint32_t, tile_height / 2> right_edge_values_;
 };
 
-// -- Change of colour of each pixel, from its land cover and its sample of the pattern.
+// -- Change of colour of each pixel. What its land cover makes of the pattern is looked up where the pattern is
+// sampled, at every second pixel of every second row; pixels between these change by the mean of those around them.
 
-/// By how much each part of the colours of pairs of pixels changes, 2^-15 of itself.
-struct PairContrast {
-    std::array<hn::Vec<PixelPairHalves>, 3> part;
+/// By how much the parts of the colours of a row of pixels change, 2^-15 of themselves; all 0: no land.
+struct ChangeRow {
+    alignas(64) std::array<std::array<std::int16_t, tile_width>, 3> part;
+};
 
-    /// `seen`: as sample_detail(), of the pairs and of those after them. `ground`: PackedGround.
-    HWY_INLINE PairContrast(hn::Vec<PixelPairBits> seen, hn::Vec<PixelPairBits> seen_beside,
-        hn::Vec<PixelPairBits> ground, const std::uint32_t* table) {
-        const PixelPairBits bits;
-        const PixelPairInts whole;
+/// Those of every second pixel: red in the lower half, green in the upper half; blue in the lower half, with a bit
+/// that says that land is seen, also where it does not change; without land all are 0.
+struct ChangesOfPairs {
+    static constexpr unsigned is_land = 2; ///< the mean of two that have it has it, too
+
+    alignas(64) std::array<std::uint32_t, pairs_per_row + 16> red_green;
+    alignas(64) std::array<std::uint32_t, pairs_per_row + 16> blue;
+
+    /// `ground`: PackedGround of the row's pairs of pixels. Right of the tile the last pair's land goes on.
+    HWY_INLINE ChangesOfPairs(const DetailRow& detail, const std::uint32_t* ground, const std::uint32_t* table) {
+        for (std::size_t two = 0; two < pairs_per_row; two += pairs_at_once) {
+            put(hn::Load(PixelPairBits(), &detail.seen[two]), hn::LoadU(PixelPairBits(), ground + two), table, two);
+        }
+        const hn::CappedTag<std::uint32_t, 1> one;
+        put(hn::Load(one, &detail.seen[pairs_per_row]), hn::Load(one, ground + pairs_per_row - 1), table,
+            pairs_per_row);
+    }
+
+private:
+    /// `seen`: as sample_detail().
+    template <class V>
+    HWY_INLINE void put(V seen, V ground, const std::uint32_t* table, std::size_t to) {
+        const hn::DFromV<V> bits;
+        const hn::RebindToSigned<decltype(bits)> whole;
+        const hn::Repartition<std::int16_t, decltype(bits)> halves;
         static_assert(
             scene::LandCoverContrast::pattern_step_count == 64 && scene::LandCoverContrast::mixture_count == 128);
-        // From 0 to 2^16.
-        const auto pattern_of = [&](hn::Vec<PixelPairBits> from)
-                                    HWY_ATTR { return hn::Xor(hn::ShiftRight<16>(from), pair_bits(0x8000)); };
-        const auto here = pattern_of(seen);
-        const auto is_none = hn::Eq(seen_beside, hn::Zero(bits));
-        const auto next = hn::IfThenElse(is_none, here, pattern_of(seen_beside));
-        const auto kind = hn::ShiftLeft<6>(hn::And(ground, pair_bits(PackedGround::cover_bits)));
-        const auto entry = [&](hn::Vec<PixelPairBits> pattern) HWY_ATTR {
-            return hn::GatherIndex(bits, table, hn::BitCast(whole, hn::Or(kind, pattern)));
+        const auto set = [&](unsigned value) HWY_ATTR { return hn::Set(bits, value); };
+        const auto pattern = hn::ShiftRight<26>(hn::Xor(seen, set(0x80000000U))); // from 0 to 63
+        const auto kind = hn::ShiftLeft<6>(hn::And(ground, set(PackedGround::cover_bits)));
+        const auto entry = hn::GatherIndex(bits, table, hn::BitCast(whole, hn::Or(kind, pattern)));
+        const auto low = set(0xffc0);
+        const auto red = hn::And(hn::ShiftRight<16>(entry), low);
+        const auto green = hn::And(hn::ShiftLeft<10>(entry), set(0xffc00000U));
+        // What the haze leaves; none where no ground is seen.
+        const auto left = hn::And(seen, set(0x7fff));
+        const auto of_both = hn::BitCast(halves, hn::Or(left, hn::ShiftLeft<16>(left)));
+        const auto hazy = [&](V contrast) HWY_ATTR {
+            return hn::BitCast(bits, hn::MulFixedPoint15(hn::BitCast(halves, contrast), of_both));
         };
-        const auto first = entry(hn::ShiftRight<10>(here));
-        const auto second = entry(hn::ShiftRight<11>(hn::Add(here, next)));
-        const auto low = pair_bits(0xffc0);
-        const auto high = pair_bits(0xffc00000U);
-        const auto both = [&](hn::Vec<PixelPairBits> of_first, hn::Vec<PixelPairBits> of_second) HWY_ATTR {
-            return hn::BitCast(PixelPairHalves(), hn::Or(hn::And(of_first, low), hn::And(of_second, high)));
-        };
-        part[0] = both(hn::ShiftRight<16>(first), second);
-        part[1] = both(hn::ShiftRight<6>(first), hn::ShiftLeft<10>(second));
-        part[2] = both(hn::ShiftLeft<4>(first), hn::ShiftLeft<20>(second));
+        hn::Store(hazy(hn::Or(red, green)), bits, &red_green[to]);
+        const auto own_blue = hn::And(hazy(hn::And(hn::ShiftLeft<4>(entry), low)), set(0xffff & ~is_land));
+        const auto is_none = hn::Or(hn::Eq(seen, hn::Zero(bits)), hn::Eq(kind, hn::Zero(bits)));
+        hn::Store(hn::IfThenZeroElse(is_none, hn::Or(own_blue, set(is_land))), bits, &blue[to]);
     }
 };
 
-// -- The whole tile. The pattern is sampled at every second pixel of every second row and interpolated linearly between
-// them.
+/// The mean of both, none where one of them is none. `is_one_none`: of each lane.
+template <class Tag>
+HWY_INLINE hn::Vec<Tag> mean_of(Tag tag, hn::Vec<Tag> one, hn::Vec<Tag> other, hn::Mask<Tag> is_one_none) {
+    const PixelPairHalves halves;
+    const auto half = [&](hn::Vec<Tag> of) HWY_ATTR { return hn::ShiftRight<1>(hn::BitCast(halves, of)); };
+    return hn::IfThenZeroElse(is_one_none, hn::BitCast(tag, hn::Add(half(one), half(other))));
+}
 
-/// Changes colours of a row of pixels of a tile by the pattern. `ground`: of its pairs of pixels.
-HWY_INLINE void change_row(const DetailRow& detail_texture, const std::uint32_t* ground, const std::uint32_t* table,
-    int row, TileBuffer& buffer) {
+/// All pixels of a row of pairs.
+HWY_INLINE void put_row(const ChangesOfPairs& pairs, ChangeRow& row) {
     const PixelPairBits bits;
+    const PixelPairHalves halves;
+    const auto low = pair_bits(0xffff);
+    for (std::size_t two = 0; two < pairs_per_row; two += pairs_at_once) {
+        const auto both = hn::Load(bits, &pairs.red_green[two]);
+        const auto blue = hn::Load(bits, &pairs.blue[two]);
+        const auto next_both = hn::LoadU(bits, &pairs.red_green[two + 1]);
+        const auto next_blue = hn::LoadU(bits, &pairs.blue[two + 1]);
+        const auto none = hn::Zero(bits);
+        const auto is_one_none = hn::Or(hn::Eq(blue, none), hn::Eq(next_blue, none));
+        const auto both_between = mean_of(bits, both, next_both, is_one_none);
+        const auto blue_between = mean_of(bits, blue, next_blue, is_one_none);
+        const auto put = [&](std::size_t k, hn::Vec<PixelPairBits> first, hn::Vec<PixelPairBits> second) HWY_ATTR {
+            hn::Store(hn::BitCast(halves, hn::Or(first, second)), halves, &row.part[k][2 * two]);
+        };
+        put(0, hn::And(both, low), hn::ShiftLeft<16>(both_between));
+        put(1, hn::ShiftRight<16>(both), hn::AndNot(low, both_between));
+        put(2, blue, hn::ShiftLeft<16>(blue_between));
+    }
+}
+
+// -- The whole tile.
+
+/// Changes of the parts of pixels' colours.
+using Changes = std::array<hn::Vec<PixelPairHalves>, 3>;
+
+/// No land: the last part has ChangesOfPairs::is_land.
+HWY_INLINE hn::Mask<PixelPairHalves> is_none(const Changes& of) { return hn::Eq(of[2], hn::Zero(PixelPairHalves())); }
+
+/// Changes colours of a row of pixels of a tile. `changes_of(x)`: of the pixels from one on.
+template <class ChangesOf>
+HWY_INLINE void change_row(const ChangesOf& changes_of, int row, TileBuffer& buffer) {
     const PixelPairHalves halves;
     const hn::RebindToUnsigned<PixelPairHalves> values;
     const auto white = hn::Set(values, std::uint16_t{255 * 256});
     const auto middle = hn::Set(values, std::uint16_t{0x8000});
     const auto all = hn::Set(values, std::uint16_t{16});
     const bool is_full = (buffer.full_rows >> row & 1U) != 0;
-    for (std::size_t two = 0; two < pairs_per_row; two += pairs_at_once) {
-        const auto seen = hn::Load(bits, &detail_texture.seen[two]);
-        if (hn::AllTrue(bits, hn::Eq(seen, hn::Zero(bits)))) { continue; }
-        const std::size_t at = static_cast<std::size_t>(row) * tile_width + 2 * two;
-        const PairContrast contrast(
-            seen, hn::LoadU(bits, &detail_texture.seen[two + 1]), hn::LoadU(bits, ground + two), table);
-        const auto left = hn::And(seen, pair_bits(0x7fff));
-        auto of_ground = hn::BitCast(values, hn::Or(left, hn::ShiftLeft<16>(left)));
+    for (std::size_t x = 0; x < tile_width; x += 2 * pairs_at_once) {
+        Changes change = changes_of(x);
+        const auto is_kept = is_none(change);
+        if (hn::AllTrue(halves, is_kept)) { continue; }
+        change[2] = hn::AndNot(hn::Set(halves, std::int16_t{ChangesOfPairs::is_land}), change[2]);
+        const std::size_t at = static_cast<std::size_t>(row) * tile_width + x;
         // Where other things than ground cover some samples, only the ground's share changes.
         const auto other_than_ground = hn::LoadU(values, buffer.sums[3].data() + at);
         if (!is_full || !hn::AllTrue(values, hn::Eq(other_than_ground, hn::Zero(values)))) {
             const auto covered = hn::LoadU(values, buffer.covered.data() + at);
             const auto count = hn::Sub(hn::PopulationCount(covered), other_than_ground);
-            const auto of_some = hn::MulHigh(of_ground, hn::ShiftLeft<12>(count));
-            of_ground = hn::IfThenElse(hn::Eq(count, all), of_ground, of_some);
+            const auto share = hn::BitCast(halves, hn::Min(hn::ShiftLeft<11>(count), hn::Set(values, 0x7fff)));
+            for (auto& part : change) {
+                part =
+                    hn::IfThenElse(hn::RebindMask(halves, hn::Eq(count, all)), part, hn::MulFixedPoint15(part, share));
+            }
         }
         for (std::size_t k = 0; k < 3; ++k) {
             std::uint16_t* const sums = buffer.sums[k].data() + at;
-            const auto change = hn::MulFixedPoint15(contrast.part[k], hn::BitCast(halves, of_ground));
-            const auto half = hn::MulHigh(hn::LoadU(values, sums), hn::Xor(hn::BitCast(values, change), middle));
-            hn::StoreU(hn::Min(hn::SaturatedAdd(half, half), white), values, sums);
+            const auto factor = hn::Xor(hn::BitCast(values, change[k]), middle);
+            const auto before = hn::LoadU(values, sums);
+            const auto half = hn::MulHigh(before, factor);
+            // Twice the half is a bit less exact: what is skipped alone is not changed beside others either.
+            const auto after = hn::Min(hn::SaturatedAdd(half, half), white);
+            hn::StoreU(hn::IfThenElse(hn::RebindMask(values, is_kept), before, after), values, sums);
         }
     }
 }
@@ -698,25 +770,40 @@ public:
     HWY_INLINE DetailApplier(const TileJob& job, const TileInverseDepths& inverse_depth, TileBuffer& buffer)
         : job_(job), inverse_depths_(inverse_depth), buffer_(buffer) {}
 
-    /// The pixels between a row of pairs and the one above it, and its own.
-    HWY_NOINLINE void change(int row, const DetailRow& above, const DetailRow& own) {
+    /// The pixels between a row of pairs and the one above it, which the call before was for, and its own.
+    HWY_NOINLINE void change(int row, const DetailRow& seen) {
         const bool is_seen = inverse_depths_.has_ground(row);
-        if (is_seen && row > 0 && inverse_depths_.has_ground(row - 1)) {
-            DetailRow between;
-            between.put_between(above, own);
-            change_pixels(2 * row - 1, between);
+        if (!is_seen) { return; }
+        const ChangeRow& above = rows_[static_cast<std::size_t>(row + 1) % 2];
+        ChangeRow& own = rows_[static_cast<std::size_t>(row) % 2];
+        // Below the tile the land of its last row goes on.
+        const int of_ground = 2 * std::min(row, inverse_depths_.rows() - 1);
+        put_row(ChangesOfPairs(seen, buffer_.ground_of_row(of_ground), job_.detail_texture->contrast), own);
+        const auto load = [](const ChangeRow& from, std::size_t x) HWY_ATTR {
+            const auto part = [&](std::size_t k) HWY_ATTR { return hn::Load(PixelPairHalves(), &from.part[k][x]); };
+            return Changes{part(0), part(1), part(2)};
+        };
+        if (row > 0 && inverse_depths_.has_ground(row - 1)) {
+            const auto between = [&](std::size_t x) HWY_ATTR {
+                const Changes one = load(above, x);
+                const Changes other = load(own, x);
+                const auto is_one_none = hn::Or(is_none(one), is_none(other));
+                const auto part = [&](std::size_t k)
+                                      HWY_ATTR { return mean_of(PixelPairHalves(), one[k], other[k], is_one_none); };
+                return Changes{part(0), part(1), part(2)};
+            };
+            change_row(between, 2 * row - 1, buffer_);
         }
-        if (is_seen && 2 * row < job_.size_px.y) { change_pixels(2 * row, own); }
+        if (2 * row < job_.size_px.y) {
+            change_row([&](std::size_t x) HWY_ATTR { return load(own, x); }, 2 * row, buffer_);
+        }
     }
 
 private:
-    HWY_INLINE void change_pixels(int row, const DetailRow& detail_texture) {
-        change_row(detail_texture, buffer_.ground_of_row(row & ~1), job_.detail_texture->contrast, row, buffer_);
-    }
-
     const TileJob& job_;
     const TileInverseDepths& inverse_depths_;
     TileBuffer& buffer_;
+    std::array<ChangeRow, 2> rows_;
 };
 
 /// Changes the summed colours of a tile by the detail texture, after its triangles are painted.
@@ -749,10 +836,7 @@ HWY_NOINLINE void add_detail_texture(const TileJob& job, TileBuffer& buffer) {
     }
     if (last % 2 == 0) { look_up(last); }
     DetailApplier walk(job, inverse_depth, buffer);
-    for (int row = 0; row <= last; ++row) {
-        const auto at = static_cast<std::size_t>(row);
-        walk.change(row, seen[row == 0 ? 0 : at - 1], seen[at]);
-    }
+    for (int row = 0; row <= last; ++row) { walk.change(row, seen[static_cast<std::size_t>(row)]); }
 }
 
 } // namespace HWY_NAMESPACE

@@ -15,6 +15,10 @@ namespace {
 /// Standard deviations of the pattern over which one cover gives way to the other: about four pixels, so that a turn by
 /// half a pixel changes little.
 constexpr double border_width = 2.2;
+/// Snow thins out over a wider border than one cover meets another, and with less contrast: patches as sharp and as
+/// dark as those look like camouflage.
+constexpr double snow_border_width = 3.4;
+constexpr double snow_contrast = 0.55;
 /// Of the difference in hue: means are seldom of the very colours that covers are said to have.
 constexpr double hue_share = 0.45;
 constexpr double min_mean = 1e-3;
@@ -44,6 +48,7 @@ struct Mixture {
     LandCover first;
     LandCover second;
     double border;
+    bool is_snow; ///< the second cover
 };
 
 Mixture mixture_of(int kind, const std::array<LandCover, LandCoverContrast::covers>& covers) {
@@ -52,12 +57,13 @@ Mixture mixture_of(int kind, const std::array<LandCover, LandCoverContrast::cove
     const int below = std::min(static_cast<int>(place), LandCoverContrast::covers - 1);
     const LandCover& second = covers[static_cast<std::size_t>(below)];
     const LandCover first = below == 0 ? LandCover{second.colour, 0.0F} : covers[static_cast<std::size_t>(below - 1)];
-    return {first, second, place_of_share(1.0 - (place - below))};
+    return {first, second, place_of_share(1.0 - (place - below)), below == LandCoverContrast::covers - 1};
 }
 
 /// What a pixel shows of a mixture.
 glm::dvec3 shown_of(const Mixture& mixture, double deviations) {
-    const double second = glm::clamp((deviations - mixture.border) / border_width + 0.5, 0.0, 1.0);
+    const double width = mixture.is_snow ? snow_border_width : border_width;
+    const double second = glm::clamp((deviations - mixture.border) / width + 0.5, 0.0, 1.0);
     const auto shown = [&](const LandCover& cover) {
         return glm::dvec3(cover.colour) * (1.0 + static_cast<double>(cover.mottling) * deviations);
     };
@@ -84,7 +90,7 @@ Shares shares_of_mixture(const Mixture& mixture) {
     for (glm::dvec3& share : shares) {
         share = share / mean - 1.0;
         const glm::dvec3 grey((share.x + share.y + share.z) / 3.0);
-        share = glm::mix(grey, share, hue_share);
+        share = glm::mix(grey, share, hue_share) * (mixture.is_snow ? snow_contrast : 1.0);
         most = std::max({most, share.x, share.y, share.z});
     }
     // Less contrast rather than another mean.

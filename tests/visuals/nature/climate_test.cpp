@@ -2,6 +2,7 @@
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -22,7 +23,7 @@ TEST_CASE("trees and snow are where travellers find them") {
 }
 
 TEST_CASE("deserts are arid, also across the date line's count, and the rest is not") {
-    CHECK(climate_of(36.1, -112.1).is_arid()); // Grand Canyon
+    CHECK(climate_of(35.0, -116.0).is_arid()); // Mojave
     CHECK(climate_of(23.0, 5.0).is_arid());    // Hoggar
     CHECK(climate_of(-25.3, 131.0 - 360.0).is_arid());
     CHECK_FALSE(climate_of(46.5, 8.0).is_arid());
@@ -31,7 +32,9 @@ TEST_CASE("deserts are arid, also across the date line's count, and the rest is 
 }
 
 TEST_CASE("plains and coasts of half-dry climates are neither deserts nor moist") {
-    for (const auto& [latitude, longitude] : {std::pair(40.2, -104.0), {34.3, -118.0}, {39.0, -3.0}, {48.0, 68.0}}) {
+    // Great Plains, San Gabriel Mountains, Grand Canyon, whose rims are steppe, La Mancha, Kazakhstan.
+    for (const auto& [latitude, longitude] :
+        {std::pair(40.2, -104.0), {34.3, -118.0}, {36.1, -112.1}, {39.0, -3.0}, {48.0, 68.0}}) {
         CAPTURE(latitude, longitude);
         CHECK(climate_of(latitude, longitude).dryness > 0.3F);
         CHECK_FALSE(climate_of(latitude, longitude).is_arid());
@@ -40,4 +43,18 @@ TEST_CASE("plains and coasts of half-dry climates are neither deserts nor moist"
         CAPTURE(latitude, longitude);
         CHECK(climate_of(latitude, longitude).dryness == 0.0F);
     }
+}
+
+TEST_CASE("the climate changes gradually, and lakes, seas and poles have one") {
+    float before = climate_of(30.0, -114.0).dryness;
+    float most = 0.0F;
+    for (double longitude = -114.0; longitude < -82.0; longitude += 0.05) { // from coast to coast
+        const float dryness = climate_of(30.0, longitude).dryness;
+        CHECK(std::abs(dryness - before) < 0.11F);
+        before = dryness;
+        most = std::max(most, dryness);
+    }
+    CHECK(most == 1.0F);
+    for (const double latitude : {-90.0, 0.0, 90.0}) { CHECK(climate_of(latitude, -180.0).dryness == 0.0F); }
+    CHECK(climate_of(24.0, 179.99).dryness == climate_of(24.0, -180.01).dryness);
 }
