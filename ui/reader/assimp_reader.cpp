@@ -57,7 +57,7 @@ models::TextureWrap wrap_of(const aiMaterial& from, const char* key, unsigned ki
 PolygonPicture picture_of(const aiScene& scene, const aiMaterial& from, MeshBuilder& mesh) {
     PolygonPicture made;
     const auto name = picture_name(from);
-    if (!name) { return made; }
+    if (!name || !mesh.uses_pictures()) { return made; }
     const auto kind = static_cast<unsigned>(
         picture_name(from, aiTextureType_DIFFUSE) ? aiTextureType_DIFFUSE : aiTextureType_BASE_COLOR);
     made.wrap_u = wrap_of(from, _AI_MATKEY_MAPPINGMODE_U_BASE, kind);

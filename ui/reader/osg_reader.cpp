@@ -105,6 +105,7 @@ private:
 
     /// Of pictures that lie on a surface; those that it mirrors, whose places follow from the view, are none.
     PolygonPicture picture_of(const osg::Geometry& geometry) {
+        if (!mesh_.uses_pictures()) { return {}; }
         const auto* mirrored = nearest_state(geometry, [](const osg::StateSet* state) {
             return state == nullptr ? nullptr : state->getTextureAttribute(0, osg::StateAttribute::TEXGEN);
         });
