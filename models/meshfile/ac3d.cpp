@@ -71,9 +71,12 @@ float colour_part(std::string_view word, const TextScanner& words) {
     return static_cast<float>(*value);
 }
 
-/// Of a transparency as the file has it; words that are no numbers are opaque.
+/// Of a transparency as the file has it; words that are no numbers are opaque, and so is what hides nearly all: files
+/// have such solid parts, as rotor blades, for FlightGear to draw them late or to fade them.
 float opacity_of(std::string_view trans) {
-    return 1.0F - static_cast<float>(std::clamp(finite_number(trans).value_or(0.0), 0.0, 1.0));
+    constexpr double solid_below = 0.05;
+    const double given = std::clamp(finite_number(trans).value_or(0.0), 0.0, 1.0);
+    return given < solid_below ? 1.0F : 1.0F - static_cast<float>(given);
 }
 
 /// Takes a name, in quotes or not, off the front of a line that `words` has just read.

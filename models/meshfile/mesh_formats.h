@@ -2,6 +2,7 @@
 
 #include "models/meshfile/mesh_builder.h"
 #include "models/meshfile/mesh_parts.h"
+#include "models/part_motion.h"
 #include "models/polygons/polygon_model.h"
 #include "models/triangle_mesh.h"
 
@@ -27,6 +28,14 @@ MeshBuilder read_ac3d(const std::filesystem::path& path, const ReadOptions& opti
 MeshBuilder read_srf(const std::filesystem::path& path, const ReadOptions& options);
 MeshBuilder read_dnm(const std::filesystem::path& path, const ReadOptions& options);
 MeshBuilder read_vrml(const std::filesystem::path& path, const ReadOptions& options);
+
+/// A variable of a simulator that follows a control: its value is `scale` times the control's position.
+struct ControlledVariable {
+    std::string_view name; ///< that part of it by which it is known
+    FlightControl control = FlightControl::Roll;
+    double scale = 1.0;
+    double right_scale = scale; ///< of the elements with odd numbers of a list, which lie on the right
+};
 
 /// Whether a text begins as an X-Plane object does.
 bool is_xplane_text(std::string_view text);

@@ -36,48 +36,41 @@ constexpr std::size_t largest_xplane_bytes = std::size_t{1} << 30U;
 
 double dataref_at_rest(std::string_view dataref) { return dataref.ends_with("view_is_external") ? 1.0 : 0.0; }
 
-/// A dataref that follows a control: its value is `scale` times the control's position. X-Plane's surfaces count
-/// positive down, its rudder to the right.
-struct ControlledDataref {
-    std::string_view part_of_name;
-    FlightControl control = FlightControl::Roll;
-    double scale = 1.0;
-    double right_scale = scale; ///< of the elements with odd numbers, which lie on the right
-};
-
-/// The first one that fits counts.
-constexpr std::array controlled_datarefs{ControlledDataref{"lail", FlightControl::Roll, 20.0},
-    ControlledDataref{"rail", FlightControl::Roll, -20.0},
-    ControlledDataref{"aileron", FlightControl::Roll, 20.0, -20.0},
-    ControlledDataref{"yoke_roll_ratio", FlightControl::Roll, 1.0},
-    ControlledDataref{"elevator", FlightControl::Pitch, -20.0},
-    ControlledDataref{"elv1def", FlightControl::Pitch, -20.0},
-    ControlledDataref{"elv2def", FlightControl::Pitch, -20.0},
-    ControlledDataref{"yoke_pitch_ratio", FlightControl::Pitch, 1.0},
-    ControlledDataref{"rudder", FlightControl::Yaw, 20.0}, ControlledDataref{"ruddef", FlightControl::Yaw, 20.0},
-    ControlledDataref{"yoke_heading_ratio", FlightControl::Yaw, 1.0},
-    ControlledDataref{"flaprat", FlightControl::Flaps, 1.0}, ControlledDataref{"flap_ratio", FlightControl::Flaps, 1.0},
-    ControlledDataref{"flap_handle", FlightControl::Flaps, 1.0},
-    ControlledDataref{"flap1_deploy_ratio", FlightControl::Flaps, 1.0},
-    ControlledDataref{"flap2_deploy_ratio", FlightControl::Flaps, 1.0},
-    ControlledDataref{"flap1_deg", FlightControl::Flaps, 30.0},
-    ControlledDataref{"flap2_deg", FlightControl::Flaps, 30.0},
-    ControlledDataref{"fla1_def", FlightControl::Flaps, 30.0},
-    ControlledDataref{"fla2_def", FlightControl::Flaps, 30.0}, ControlledDataref{"slatrat", FlightControl::Flaps, 1.0},
-    ControlledDataref{"slat_ratio", FlightControl::Flaps, 1.0},
-    ControlledDataref{"slat1_deploy_ratio", FlightControl::Flaps, 1.0},
-    ControlledDataref{"slat2_deploy_ratio", FlightControl::Flaps, 1.0},
-    ControlledDataref{"sbrkrat", FlightControl::SpeedBrake, 1.0},
-    ControlledDataref{"speedbrake_ratio", FlightControl::SpeedBrake, 1.0},
-    ControlledDataref{"speedbrake1_deg", FlightControl::SpeedBrake, 45.0},
-    ControlledDataref{"speedbrake2_deg", FlightControl::SpeedBrake, 45.0},
-    ControlledDataref{"speed_brake_ratio", FlightControl::SpeedBrake, 1.0},
-    ControlledDataref{"spoiler_ratio", FlightControl::SpeedBrake, 1.0},
-    ControlledDataref{"gear/deploy_ratio", FlightControl::Gear, 1.0},
-    ControlledDataref{"acf_gear_deploy", FlightControl::Gear, 1.0},
-    ControlledDataref{"gear_ratio", FlightControl::Gear, 1.0},
-    ControlledDataref{"gear_deploy", FlightControl::Gear, 1.0},
-    ControlledDataref{"gear_handle", FlightControl::Gear, 1.0}};
+/// X-Plane's surfaces count positive down, its rudder to the right. The first one that fits counts.
+constexpr std::array controlled_datarefs{ControlledVariable{"lail", FlightControl::Roll, 20.0},
+    ControlledVariable{"rail", FlightControl::Roll, -20.0},
+    ControlledVariable{"aileron", FlightControl::Roll, 20.0, -20.0},
+    ControlledVariable{"yoke_roll_ratio", FlightControl::Roll, 1.0},
+    ControlledVariable{"elevator", FlightControl::Pitch, -20.0},
+    ControlledVariable{"elv1def", FlightControl::Pitch, -20.0},
+    ControlledVariable{"elv2def", FlightControl::Pitch, -20.0},
+    ControlledVariable{"yoke_pitch_ratio", FlightControl::Pitch, 1.0},
+    ControlledVariable{"rudder", FlightControl::Yaw, 20.0}, ControlledVariable{"ruddef", FlightControl::Yaw, 20.0},
+    ControlledVariable{"yoke_heading_ratio", FlightControl::Yaw, 1.0},
+    ControlledVariable{"flaprat", FlightControl::Flaps, 1.0},
+    ControlledVariable{"flap_ratio", FlightControl::Flaps, 1.0},
+    ControlledVariable{"flap_handle", FlightControl::Flaps, 1.0},
+    ControlledVariable{"flap1_deploy_ratio", FlightControl::Flaps, 1.0},
+    ControlledVariable{"flap2_deploy_ratio", FlightControl::Flaps, 1.0},
+    ControlledVariable{"flap1_deg", FlightControl::Flaps, 30.0},
+    ControlledVariable{"flap2_deg", FlightControl::Flaps, 30.0},
+    ControlledVariable{"fla1_def", FlightControl::Flaps, 30.0},
+    ControlledVariable{"fla2_def", FlightControl::Flaps, 30.0},
+    ControlledVariable{"slatrat", FlightControl::Flaps, 1.0},
+    ControlledVariable{"slat_ratio", FlightControl::Flaps, 1.0},
+    ControlledVariable{"slat1_deploy_ratio", FlightControl::Flaps, 1.0},
+    ControlledVariable{"slat2_deploy_ratio", FlightControl::Flaps, 1.0},
+    ControlledVariable{"sbrkrat", FlightControl::SpeedBrake, 1.0},
+    ControlledVariable{"speedbrake_ratio", FlightControl::SpeedBrake, 1.0},
+    ControlledVariable{"speedbrake1_deg", FlightControl::SpeedBrake, 45.0},
+    ControlledVariable{"speedbrake2_deg", FlightControl::SpeedBrake, 45.0},
+    ControlledVariable{"speed_brake_ratio", FlightControl::SpeedBrake, 1.0},
+    ControlledVariable{"spoiler_ratio", FlightControl::SpeedBrake, 1.0},
+    ControlledVariable{"gear/deploy_ratio", FlightControl::Gear, 1.0},
+    ControlledVariable{"acf_gear_deploy", FlightControl::Gear, 1.0},
+    ControlledVariable{"gear_ratio", FlightControl::Gear, 1.0},
+    ControlledVariable{"gear_deploy", FlightControl::Gear, 1.0},
+    ControlledVariable{"gear_handle", FlightControl::Gear, 1.0}};
 
 /// The number in brackets at the end of a dataref's name; 0 without one.
 long element_of(std::string_view dataref) {
@@ -95,8 +88,8 @@ struct Controlled {
 std::optional<Controlled> controlled_by(std::string_view dataref) {
     // Trim wheels, levers and dials show what pilots set, not what stands outside.
     if (dataref.find("trim") != dataref.npos || dataref.find("indicators") != dataref.npos) { return std::nullopt; }
-    const auto* const found = std::ranges::find_if(controlled_datarefs,
-        [&](const ControlledDataref& one) { return dataref.find(one.part_of_name) != dataref.npos; });
+    const auto* const found = std::ranges::find_if(
+        controlled_datarefs, [&](const ControlledVariable& one) { return dataref.find(one.name) != dataref.npos; });
     if (found == controlled_datarefs.end()) { return std::nullopt; }
     return Controlled{found->control, element_of(dataref) % 2 == 0 ? found->scale : found->right_scale};
 }

@@ -72,9 +72,10 @@ TEST_CASE("a faulty number in a range costs the range alone") {
 
 TEST_CASE("a FlightGear model includes files and names groups of objects") {
     file_with("square.ac", ac3d_square("0x0", "blade"));
+    file_with("other.ac", ac3d_square("0x0", "wing"));
     file_with("spin.xml", "<PropertyList><type>spin</type><property>rotors/tail/rpm</property><axis><y>1</y></axis>"
                           "</PropertyList>");
-    file_with("common.xml", "<PropertyList><model><path>square.ac</path></model><animation><name>all</name>"
+    file_with("common.xml", "<PropertyList><model><path>other.ac</path></model><animation><name>all</name>"
                             "<object-name>blade</object-name></animation></PropertyList>");
     const auto file = file_with("including.xml",
         "<PropertyList include=\"common.xml\"><path>square.ac</path><animation n='3' include = "
@@ -121,9 +122,10 @@ TEST_CASE("what a range shows from afar only is left out of a FlightGear model")
 
 TEST_CASE("ranges, lights and views of a FlightGear model show what is seen from outside") {
     file_with("square.ac", ac3d_square("0x0", "pilot"));
+    file_with("other.ac", ac3d_square("0x0", "wing"));
     const auto shown = [](const std::string& animation) {
         const auto file = file_with(
-            "outside.xml", "<PropertyList><path>square.ac</path><model><path>square.ac</path></model><animation>"
+            "outside.xml", "<PropertyList><path>square.ac</path><model><path>other.ac</path></model><animation>"
                            "<object-name>pilot</object-name>" +
                                animation + "</animation></PropertyList>");
         return read_mesh(file).triangles.size() == 4; // else the sub-model's two alone
@@ -144,9 +146,10 @@ TEST_CASE("ranges, lights and views of a FlightGear model show what is seen from
 
 TEST_CASE("what animations move stands where it is at rest: landing gear up") {
     file_with("square.ac", ac3d_square("0x0", "leg"));
+    file_with("round.ac", ac3d_square("0x0", "tyre"));
     const auto corner_m = [](const std::string& animations) {
         const TriangleMesh mesh = read_mesh(
-            file_with("gear.xml", "<PropertyList><path>square.ac</path><model><name>wheel</name><path>square.ac</path>"
+            file_with("gear.xml", "<PropertyList><path>square.ac</path><model><name>wheel</name><path>round.ac</path>"
                                   "</model>" +
                                       animations + "</PropertyList>"));
         REQUIRE(mesh.vertices_m.size() == 8);
@@ -198,9 +201,10 @@ TEST_CASE("what is said of a FlightGear model's many parts ends with a count") {
 
 TEST_CASE("what FlightGear shows under a condition is there if it holds at rest") {
     file_with("square.ac", ac3d_square("0x0", "lamp"));
+    file_with("other.ac", ac3d_square("0x0", "wing"));
     const auto shown = [](const std::string& condition) {
         const auto file = file_with(
-            "selected.xml", "<PropertyList><path>square.ac</path><model><path>square.ac</path></model><animation>"
+            "selected.xml", "<PropertyList><path>square.ac</path><model><path>other.ac</path></model><animation>"
                             "<type>select</type><object-name>lamp</object-name><condition>" +
                                 condition + "</condition></animation></PropertyList>");
         return read_mesh(file).triangles.size() == 4; // else the sub-model's two alone
@@ -282,9 +286,10 @@ TEST_CASE("propellers and rotors of a FlightGear model turn, wheels stay with th
 
 TEST_CASE("rotors turn by their names where a property does not say what it is of") {
     file_with("blades.ac", ac3d_square("0x0", "Blades"));
+    file_with("other.ac", ac3d_square("0x0", "wing"));
     const auto rate = [](const std::string& property, const std::string& axis) {
         const auto file = file_with(
-            "named.xml", "<PropertyList><path>blades.ac</path><model><path>blades.ac</path></model><animation>"
+            "named.xml", "<PropertyList><path>blades.ac</path><model><path>other.ac</path></model><animation>"
                          "<type>spin</type><object-name>Blades</object-name><property>" +
                              property + "</property><axis><" + axis + ">1</" + axis +
                              "></axis><interpolation><entry><ind>0</ind><dep>0</dep></entry><entry><ind>400"
@@ -350,7 +355,8 @@ TEST_CASE("an AC3D aircraft alone shows its blades, not what stands for discs, l
 TEST_CASE(
     "control surfaces and gear of FlightGear models move by their properties, with the sub-models that they hold") {
     file_with("flap.ac", ac3d_square("0x0", "flap"));
-    file_with("wheel.xml", "<PropertyList><path>flap.ac</path></PropertyList>");
+    file_with("tyre.ac", ac3d_square("0x0", "tyre"));
+    file_with("wheel.xml", "<PropertyList><path>tyre.ac</path></PropertyList>");
     const std::string axis = "<axis><x>0</x><y>1</y><z>0</z></axis>";
     const auto file = file_with("surfaces.xml",
         "<PropertyList><path>flap.ac</path><offsets><z-m>3</z-m></offsets>"
@@ -398,4 +404,93 @@ TEST_CASE("a sub-model turns as the model that holds it says by its name") {
     REQUIRE(model.parts.size() == 1);
     CHECK(model.parts[0].mesh.triangles.size() == 2);
     CHECK(model.parts[0].about.turns_per_s == Approx(1.5));
+}
+
+TEST_CASE("animations of a FlightGear model hold for the objects of all models within it, at their places") {
+    file_with("blade.ac", ac3d_square("0x0", "blade"));
+    file_with("base.xml", "<PropertyList><path>blade.ac</path></PropertyList>");
+    const auto holder = [](const std::string& animation, const std::string& offsets) {
+        file_with("inner.xml", "<PropertyList><model><name>rotor</name><path>base.xml</path>" + offsets + "</model>" +
+                                   animation + "</PropertyList>");
+        return file_with("outer.xml",
+            "<PropertyList><model><path>inner.xml</path><offsets><z-m>5</z-m></offsets></model>"
+            "<model><path>body.ac</path></model></PropertyList>");
+    };
+    file_with("body.ac", ac3d_square("0x0", "body"));
+    const RotatingModel turning = read_rotating_model(
+        holder("<animation><type>rotate</type><object-name>blade</object-name>"
+               "<property>rotors/main/blade[1]/position-deg</property><axis><z>1</z></axis></animation>",
+            ""),
+        {});
+    CHECK(turning.body.triangles.size() == 2);
+    REQUIRE(turning.parts.size() == 1);
+    CHECK(turning.parts[0].about.point_m == glm::dvec3(0.0, 0.0, 5.0));
+    const std::string shift = "<animation><type>translate</type><object-name>blade</object-name>"
+                              "<offset-m>2</offset-m><axis><x>1</x></axis></animation>";
+    const std::string turned_offsets = "<offsets><x-m>10</x-m><heading-deg>90</heading-deg></offsets>";
+    const TriangleMesh moved = read_mesh(holder(shift, turned_offsets));
+    const TriangleMesh still = read_mesh(holder("", turned_offsets));
+    REQUIRE(moved.vertices_m.size() == 8);
+    CHECK(glm::distance(moved.vertices_m[2], still.vertices_m[2] + glm::dvec3(2.0, 0.0, 0.0)) < 1e-9);
+    CHECK(read_mesh(holder("<animation><type>select</type><object-name>blade</object-name><condition>"
+                           "<property>on</property></condition></animation>",
+                        ""))
+              .triangles.size() == 2);
+}
+
+TEST_CASE("expressions of FlightGear's animations are worth what their properties are at rest, and follow controls") {
+    file_with("square.ac", ac3d_square("0x0", "flap"));
+    file_with("other.ac", ac3d_square("0x0", "wing"));
+    const auto corner_m = [](const std::string& expression) {
+        const TriangleMesh mesh = read_mesh(file_with("plane.xml",
+            "<PropertyList><path>square.ac</path><animation><type>translate</type><object-name>flap</object-name>"
+            "<expression>" +
+                expression + "</expression><axis><x>1</x></axis></animation></PropertyList>"));
+        return mesh.vertices_m[2].x; // 1 where it is not moved
+    };
+    CHECK(corner_m("<value>3</value>") == Approx(4.0));
+    CHECK(corner_m("<sum><value>3</value><product><value>2</value><value>-4</value></product>"
+                   "<property>nothing</property></sum>") == Approx(-4.0));
+    CHECK(corner_m("<clip><clipMin>0.5</clipMin><clipMax>2</clipMax><value>7</value></clip>") == Approx(3.0));
+    CHECK(corner_m("<max><sin><deg2rad><value>90</value></deg2rad></sin><difference><value>5</value><value>3</value>"
+                   "</difference></max>") == Approx(3.0));
+    CHECK(corner_m("<table><property>x</property><entry><ind>-1</ind><dep>0</dep></entry>"
+                   "<entry><ind>1</ind><dep>8</dep></entry></table>") == Approx(5.0));
+    CHECK(corner_m("<div><value>1</value><property>nothing</property></div>") == 1.0); // not finite
+    CHECK(corner_m("<noise><value>1</value></noise>") == 1.0);
+    const RotatingModel elevon = read_rotating_model(
+        file_with("elevon.xml",
+            "<PropertyList><path>square.ac</path><model><path>other.ac</path></model><animation><type>rotate</type>"
+            "<object-name>flap</object-name><expression><sum>"
+            "<product><property>surface-positions/left-aileron-pos-norm</property><value>10</value></product>"
+            "<product><property>/surface-positions/elevator-pos-norm</property><value>20</value></product>"
+            "</sum></expression><axis><y>1</y></axis></animation></PropertyList>"),
+        {});
+    const auto turn_deg = [&](double roll, double pitch) {
+        ControlPositions positions{};
+        positions[static_cast<std::size_t>(FlightControl::Roll)] = roll;
+        positions[static_cast<std::size_t>(FlightControl::Pitch)] = pitch;
+        const auto& part = elevon.parts.empty() ? RotatingPart{} : elevon.parts[0];
+        const glm::dvec4 tip = placement_by(part.moves, positions) * glm::dvec4(1.0, 0.0, 0.0, 1.0);
+        return std::atan2(-tip.z, tip.x) / rad_from_deg(1.0);
+    };
+    CHECK(turn_deg(1.0, 0.0) == Approx(10.0));
+    CHECK(turn_deg(0.0, 1.0) == Approx(-20.0));
+    CHECK(turn_deg(-1.0, 1.0) == Approx(-30.0));
+}
+
+TEST_CASE("what a blend makes clear at rest is left out of a FlightGear model") {
+    file_with("square.ac", ac3d_square("0x0", "beam"));
+    file_with("other.ac", ac3d_square("0x0", "wing"));
+    const auto triangles = [](const std::string& value) {
+        return read_mesh(
+            file_with("beams.xml", "<PropertyList><path>square.ac</path><model><path>other.ac</path></model><animation>"
+                                   "<type>blend</type><object-name>beam</object-name>" +
+                                       value + "</animation></PropertyList>"))
+            .triangles.size();
+    };
+    CHECK(
+        triangles("<expression><difference><value>1</value><property>light</property></difference></expression>") == 2);
+    CHECK(triangles("<property>light</property><factor>-1</factor><offset>1</offset>") == 2);
+    CHECK(triangles("<property>light</property>") == 4);
 }

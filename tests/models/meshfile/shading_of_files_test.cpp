@@ -183,13 +183,14 @@ TEST_CASE("blades of a FlightGear rotor stand around it by their numbers") {
 
 TEST_CASE("what an aircraft's own file states of properties decides what is shown and where it stands") {
     file_with("tank.ac", ac3d_square("0x0", "tank"));
+    file_with("body.ac", ac3d_square("0x0", "body"));
     file_with("stated.xml", "<PropertyList><path>tank.ac</path>"
                             "<animation><type>select</type><object-name>tank</object-name><condition><equals>"
                             "<property>/sim/fit</property><value>ferry</value></equals></condition></animation>"
                             "<animation><type>translate</type><object-name>tank</object-name>"
                             "<property>sim/shift[1]/m</property><factor>2</factor>"
                             "<axis><x>1</x><y>0</y><z>0</z></axis></animation>"
-                            "<model><name>always</name><path>tank.ac</path></model></PropertyList>");
+                            "<model><name>always</name><path>body.ac</path></model></PropertyList>");
     const auto set_file = [](const std::string& properties) {
         return file_with("stated-set.xml",
             "<PropertyList><sim><model><path>stated.xml</path></model>" + properties + "</sim></PropertyList>");
