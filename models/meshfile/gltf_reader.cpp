@@ -7,6 +7,7 @@
 #include "sim/base/error.h"
 #include "sim/base/text_file.h"
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include <algorithm>
@@ -622,6 +623,11 @@ public:
             mesh_.add_note(
                 fmt::format("{}: attributes that are not read: {}", path_.string(), fmt::join(not_read_, ", ")));
         }
+        if (uneven_tints_ > 0) {
+            mesh_.add_note(fmt::format("{}: {} surfaces with a picture have colours of vertices that vary: drawn in "
+                                       "the mean of each",
+                path_.string(), uneven_tints_));
+        }
         return std::move(mesh_);
     }
 
@@ -661,15 +667,19 @@ private:
         if (!position) { data_.refuse(where, "a POSITION", "none"); }
         const auto colour = data_.index(*attributes, "COLOR_0", accessors, where);
         const auto normal = data_.index(*attributes, "NORMAL", accessors, where);
-        const auto [first_vertex, count] = vertices(*position, colour.value_or(accessors), placement, where);
+        const auto material = data_.index(primitive, "material", materials_.size(), where);
+        const PolygonPicture picture =
+            material && mesh_.uses_pictures() ? polygon_picture(data_, *material, mesh_.pictures()) : PolygonPicture();
+        const bool is_tint = colour && picture.picture != BakedPictures::none; // a picture times COLOR_0
+        const auto [first_vertex, count] =
+            vertices(*position, is_tint ? accessors : colour.value_or(accessors), placement, where);
         std::uint32_t first_normal = invalid_index;
         mesh_.set_smoothing({Smoothing::flat}); // as the specification wants it where normals are missing
         if (normal) { first_normal = normals(*normal, count, placement, where); }
         std::vector<std::uint32_t> corners = corner_list(primitive, count, where);
-        const auto material = data_.index(primitive, "material", materials_.size(), where);
-        const std::uint32_t used = material ? used_material(*material) : invalid_index;
-        const PolygonPicture picture =
-            material && mesh_.uses_pictures() ? polygon_picture(data_, *material, mesh_.pictures()) : PolygonPicture();
+        const std::uint32_t used = is_tint    ? tinted_material(*material, *colour, where)
+                                   : material ? used_material(*material)
+                                              : invalid_index;
         const std::uint32_t first_texture = texture_coordinates(material, *attributes, count);
         const auto texture = texture_accessor(data_, material, *attributes);
         for (const auto& [name, number] : attributes->items()) {
@@ -759,6 +769,35 @@ private:
             check_colour(colour, where);
             mesh_.set_colour(first + static_cast<std::uint32_t>(i), glm::vec3(srgb_from_linear(colour)));
         }
+    }
+
+    /// A material times the mean of colours of vertices: pictures are drawn in one tint.
+    std::uint32_t tinted_material(std::size_t index, std::size_t colours, const std::string& where) {
+        const std::uint32_t own = used_material(index);
+        const auto [known, is_new] = tinted_.try_emplace({index, colours}, own);
+        if (!is_new) { return known->second; }
+        const GltfAccessor list = data_.accessor(colours);
+        if (list.parts() < 3) {
+            data_.refuse(where, "a COLOR_0 of 3 or 4 numbers", fmt::format("one of {}", list.parts()));
+        }
+        glm::dvec3 sum(0.0);
+        glm::dvec3 least(1.0);
+        glm::dvec3 most(0.0);
+        for (std::size_t i = 0; i < list.count(); ++i) {
+            const glm::dvec3 colour(list.at(i, 0), list.at(i, 1), list.at(i, 2));
+            check_colour(colour, where);
+            sum += colour;
+            least = glm::min(least, colour);
+            most = glm::max(most, colour);
+        }
+        constexpr double even = 1.0 / 64.0;
+        if (most.x - least.x > even || most.y - least.y > even || most.z - least.z > even) { ++uneven_tints_; }
+        if (list.count() == 0 || (least == glm::dvec3(1.0) && most == glm::dvec3(1.0))) { return own; }
+        Material tinted = mesh_.material(own);
+        tinted.colour = glm::vec3(
+            srgb_from_linear(linear_from_srgb(glm::dvec3(tinted.colour)) * sum / static_cast<double>(list.count())));
+        known->second = mesh_.add_material(std::move(tinted));
+        return known->second;
     }
 
     std::uint32_t normals(
@@ -878,12 +917,14 @@ private:
     std::filesystem::path path_;
     GltfData data_;
     MeshBuilder mesh_;
-    std::vector<std::uint32_t> materials_; ///< of the file, as materials of the mesh
+    std::vector<std::uint32_t> materials_;                                ///< of the file, as materials of the mesh
+    std::map<std::pair<std::size_t, std::size_t>, std::uint32_t> tinted_; ///< by material and COLOR_0
     std::map<std::pair<std::size_t, std::size_t>, std::pair<std::uint32_t, std::size_t>> vertices_;
     std::map<std::size_t, std::pair<std::uint32_t, std::size_t>> normals_;
     std::vector<PlacedTexture> texture_coordinates_; ///< of the mesh at hand
     std::size_t numbers_ = 0;
     std::size_t skipped_ = 0;
+    std::size_t uneven_tints_ = 0;
     std::set<std::string> not_read_; ///< attributes
 };
 

@@ -161,7 +161,8 @@ std::uint32_t BakedPictures::picture(const std::string& name, std::string_view b
 }
 
 void BakedPictures::add_triangle(const PolygonPicture& picture, const std::array<glm::vec2, 3>& places) {
-    triangles_.push_back({is_good(places) ? picture.picture : none, picture.alpha == TextureAlpha::Opaque, places});
+    triangles_.push_back({is_good(places) ? picture.picture : none, picture.alpha == TextureAlpha::Opaque,
+        picture.alpha == TextureAlpha::Mask, places});
 }
 
 Material BakedPictures::shown_on(Material material, const PolygonPicture& shown) const {
@@ -192,14 +193,17 @@ std::vector<BakedPictures::Cover> BakedPictures::covers() const {
         double sum = 0.0;
         double least = 1.0;
         double most = 0.0;
+        int graded = 0;
         const int samples = for_each_sample(
             view_of(triangle), triangle.places, [&](const glm::dvec3&, const glm::dvec3&, double there) {
                 sum += there;
                 least = std::min(least, there);
                 most = std::max(most, there);
+                graded += there > about && there < 1.0 - about ? 1 : 0;
             });
         cover.opacity = static_cast<float>(sum / samples);
         cover.is_uniform = most - least <= 2.0 * about;
+        cover.is_graded = !triangle.is_cut && 2 * graded > samples;
     }
     return found;
 }
@@ -240,12 +244,13 @@ constexpr double unit_tolerance = 1e-6;
 
 constexpr glm::dvec3 upwards(0.0, 0.0, 1.0);
 
-/// Of a picture that is mostly transparent: less is a hole in it, if evenly so more is glass.
+/// Of a picture that is mostly transparent: less is a hole in it, more is glass where it is even or graded, as a
+/// turning propeller's disc.
 constexpr float glass_from = 0.05F;
 constexpr float mostly_there = 0.5F;
 
 bool is_glass(const BakedPictures::Cover& cover) {
-    return cover.is_uniform && cover.opacity >= glass_from && cover.opacity < mostly_there;
+    return (cover.is_uniform || cover.is_graded) && cover.opacity >= glass_from && cover.opacity < mostly_there;
 }
 
 } // namespace

@@ -78,6 +78,7 @@ public:
     struct Cover {
         float opacity = 1.0F;   ///< mean
         bool is_uniform = true; ///< nearly constant over the triangle
+        bool is_graded = false; ///< mostly neither nearly 0 nor nearly 1, where alpha does not only cut holes
     };
 
     /// Returns one entry for each triangle added.
@@ -111,6 +112,7 @@ private:
     struct TexturedTriangle {
         std::uint32_t picture = none;
         bool ignores_alpha = false;
+        bool is_cut = false; ///< the file says that alpha only cuts holes
         std::array<glm::vec2, 3> places{};
     };
 
@@ -176,6 +178,8 @@ public:
     std::size_t texture_coordinates_count() const { return mesh_.texture_coordinates.size(); }
 
     std::uint32_t add_material(Material material);
+
+    const Material& material(std::uint32_t number) const { return mesh_.materials[number]; }
 
     /// The material of all faces to which the file gives this colour; added when it is first used.
     std::uint32_t face_colour_material(const glm::vec3& colour);

@@ -37,7 +37,7 @@ namespace octant::models::meshfile {
 TriangleMesh read_mesh(const std::filesystem::path& path, const ReadOptions& options = {});
 
 /// As read_mesh, but returns transparent surfaces (.ac, .obj, glTF) and groups of objects (.ac) separately. With
-/// pictures, triangles with a uniform picture opacity of 0.05 to 0.5 are transparent too; other triangles whose picture
+/// pictures, triangles with a uniform or graded picture opacity of 0.05 to 0.5 are transparent too; other triangles whose picture
 /// is mostly transparent, and invisible surfaces, are left out. Throws Error.
 MeshParts read_parts(const std::filesystem::path& path, const ReadOptions& options);
 

@@ -197,22 +197,32 @@ TEST_CASE("a damaged picture is reported, and its surfaces have their material's
     CHECK(mesh.materials.at(mesh.triangle_materials[0]).texture.picture == nullptr);
 }
 
+namespace {
+
+/// A glTF triangle with the picture Skin.tif; more of its material and of its attributes.
+TriangleMesh gltf_with_skin(
+    const std::shared_ptr<TextureStore>& store, const std::string& of_material, const std::string& attributes = "") {
+    const std::string text = R"({"asset":{"version":"2.0"},"buffers":[{"byteLength":60,"uri":")" +
+                             std::string("data:application/octet-stream;base64,") +
+                             "AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAAAAAAAAAAAAAAAIA/AAAAAAAAAAAAAIA/" +
+                             R"("}],"bufferViews":[{"buffer":0,"byteLength":36},{"buffer":0,"byteOffset":36,)" +
+                             R"("byteLength":24}],"accessors":[{"bufferView":0,"componentType":5126,"count":3,)" +
+                             R"("type":"VEC3"},{"bufferView":1,"componentType":5126,"count":3,"type":"VEC2"}],)" +
+                             R"("images":[{"uri":"Skin.tif"}],"samplers":[{"wrapS":33071,"wrapT":33648}],)" +
+                             R"("textures":[{"source":0,"sampler":0}],"materials":[{"pbrMetallicRoughness":)" +
+                             R"({"baseColorTexture":{"index":0}})" + of_material +
+                             R"(}],"meshes":[{"primitives":[{"attributes":{"POSITION":0,"TEXCOORD_0":1)" + attributes +
+                             R"(},"material":0}]}]})";
+    return read_mesh(file_with("skin.gltf", text), {.pictures = store != nullptr, .textures = store});
+}
+
+} // namespace
+
 TEST_CASE("glTF says how its pictures wrap and what their alpha does") {
     file_with("skin.tif", tiff(2, 1, {255, 0, 0, 90, 0, 0, 255, 255}));
     const auto store = std::make_shared<TextureStore>();
     const auto texture_of = [&](const std::string& mode) {
-        const std::string text = R"({"asset":{"version":"2.0"},"buffers":[{"byteLength":60,"uri":")" +
-                                 std::string("data:application/octet-stream;base64,") +
-                                 "AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAAAAAAAAAAAAAAAIA/AAAAAAAAAAAAAIA/" +
-                                 R"("}],"bufferViews":[{"buffer":0,"byteLength":36},{"buffer":0,"byteOffset":36,)" +
-                                 R"("byteLength":24}],"accessors":[{"bufferView":0,"componentType":5126,"count":3,)" +
-                                 R"("type":"VEC3"},{"bufferView":1,"componentType":5126,"count":3,"type":"VEC2"}],)" +
-                                 R"("images":[{"uri":"Skin.tif"}],"samplers":[{"wrapS":33071,"wrapT":33648}],)" +
-                                 R"("textures":[{"source":0,"sampler":0}],"materials":[{"pbrMetallicRoughness":)" +
-                                 R"({"baseColorTexture":{"index":0}})" + mode +
-                                 R"(}],"meshes":[{"primitives":[{"attributes":{"POSITION":0,"TEXCOORD_0":1},)" +
-                                 R"("material":0}]}]})";
-        const TriangleMesh mesh = read_mesh(file_with("skin.gltf", text), {.pictures = true, .textures = store});
+        const TriangleMesh mesh = gltf_with_skin(store, mode);
         return mesh.materials.at(mesh.triangle_materials.at(0)).texture;
     };
     const SurfaceTexture plain_one = texture_of("");
@@ -223,4 +233,32 @@ TEST_CASE("glTF says how its pictures wrap and what their alpha does") {
     const SurfaceTexture masked = texture_of(R"(,"alphaMode":"MASK","alphaCutoff":0.25)");
     CHECK(masked.alpha == TextureAlpha::Mask);
     CHECK(masked.threshold == 0.25F);
+}
+
+TEST_CASE("colours of vertices tint a picture of glTF, in their mean; without pictures they are the vertices'") {
+    file_with("skin.tif", tiff(2, 1, {255, 0, 0, 255, 0, 0, 255, 255}));
+    const std::string colours = R"(,"COLOR_0":0)"; // the places: black, red and green
+    const TriangleMesh mesh = gltf_with_skin(std::make_shared<TextureStore>(), "", colours);
+    const Material& shown = mesh.materials.at(mesh.triangle_materials.at(0));
+    REQUIRE(shown.texture.picture != nullptr);
+    const auto third = static_cast<float>(srgb_from_linear(glm::dvec3(1.0 / 3.0)).x);
+    CHECK(shown.colour.x == Approx(third));
+    CHECK(shown.colour.y == Approx(third));
+    CHECK(shown.colour.z == 0.0F);
+    REQUIRE(mesh.notes.size() == 1);
+    CHECK_THAT(mesh.notes[0], Catch::Contains("1 surfaces with a picture have colours of vertices that vary"));
+    CHECK(gltf_with_skin(nullptr, "", colours).colours.at(1) == glm::vec3(1.0F, 0.0F, 0.0F));
+}
+
+TEST_CASE("a picture that is mostly neither clear nor opaque is glass, as a turning propeller's disc") {
+    Bytes disc = plain(8, 8, {90, 90, 90, 0});
+    for (std::size_t texel = 0; texel < 64; ++texel) {
+        disc[4 * texel + 3] = static_cast<std::uint8_t>(40 + 12 * (texel % 8)); // an alpha of 40 to 124
+    }
+    file_with("two.bmp", tiff(8, 8, disc));
+    const auto file = file_with("disc.ac", ac3d_square("0x0"));
+    const MeshParts parts = read_parts(file, {.pictures = true, .textures = std::make_shared<TextureStore>()});
+    CHECK(parts.body.triangles.empty());
+    REQUIRE(parts.clear.triangles.size() == 2);
+    CHECK(parts.clear.materials.at(parts.clear.triangle_materials[0]).texture.alpha == TextureAlpha::Blend);
 }
