@@ -9,8 +9,13 @@ contrast   root mean square of the luminance after averaging 4 x 4 pixels, less 
 psnr       dB against the mean of 64 pictures whose lens is shifted by eighths of a pixel: 64 samples a pixel
 larger     dB against the picture of 2560 x 1440 pixels, reduced to half: 64 samples a pixel of the finer surface
 cpu        CPU milliseconds a picture, median of 15
+
+With --order instead, six headings a place: pixels painted in order that differ by more than 16 levels from each of the
+3 x 3 pixels around them in the picture painted by depth, and the pictures' hashes, to compare runs with other numbers
+of threads and other instruction sets.
 """
 import argparse
+import hashlib
 import os
 import sys
 import time
@@ -62,7 +67,8 @@ class Place:
         name, made, east, north, above_m, self.heading, self.pitch, azimuth, elevation = row
         terrain = os.path.join(maps, name) if maps else made
         self.name = name if maps else made
-        self.world = octant.World(terrain, sun_azimuth=azimuth, sun_elevation=elevation, **settings)
+        self.settings = dict(terrain=terrain, sun_azimuth=azimuth, sun_elevation=elevation, **settings)
+        self.world = octant.World(**self.settings)
         half = self.world.ground.half_extent_m
         at = np.array([east * half[0], north * half[1]])
         ground_m = float(self.world.ground.height_m(at[0], at[1]))
@@ -103,6 +109,25 @@ class Place:
         large = self.picture(camera=camera_at(larger=2)).astype(float)
         return error_db(large.reshape(HEIGHT, 2, WIDTH, 2, 3).mean(axis=(1, 3)), self.picture())
 
+    def order(self):
+        """Pixels that are wrong beyond the rounding of edges in six headings, and a hash of all pictures."""
+        hashed = hashlib.sha256()
+        wrong = []
+        with octant.World(**self.settings, hidden_surface="depth-buffer") as by_depth:
+            for turn in range(0, 360, 60):
+                look = octant.attitudes(heading_deg=self.heading + turn, pitch_deg=self.pitch)
+                ordered, deep = (world.render(camera_at(), self.eye, look, outputs=("rgb",)).rgb[0]
+                                 for world in (self.world, by_depth))
+                hashed.update(ordered.tobytes())
+                around = np.pad(deep.astype(np.int16), ((1, 1), (1, 1), (0, 0)), mode="edge")
+                least = np.full((HEIGHT, WIDTH), 255)
+                for y in range(3):
+                    for x in range(3):
+                        off = np.abs(around[y:y + HEIGHT, x:x + WIDTH] - ordered).max(axis=2)
+                        least = np.minimum(least, off)
+                wrong.append(int((least > 16).sum()))
+        return wrong, hashed.hexdigest()[:16]
+
     def cpu_ms(self):
         times = []
         for _ in range(15):
@@ -122,13 +147,22 @@ def main():
     parser.add_argument("--set", action="append", default=[], metavar="KEY=VALUE", help="a setting of octant.World")
     parser.add_argument("--pictures", help="folder for a PNG file a place")
     parser.add_argument("--samples", type=int, default=16, help="a pixel, of crawl and psnr")
+    parser.add_argument("--order", action="store_true", help="painting order against depth, and hashes")
     parser.add_argument("--quick", action="store_true", help="crawl and contrast of the first ten places alone")
     arguments = parser.parse_args()
     settings = dict(each.split("=", 1) for each in arguments.set)
     settings = {key: {"True": True, "False": False}.get(value, value) for key, value in settings.items()}
-    print("place map                        crawl  contrast    psnr  larger     cpu")
+    if arguments.order:
+        print("place map                       wrong                    pictures")
+    else:
+        print("place map                        crawl  contrast    psnr  larger     cpu")
     for number, row in enumerate(PLACES[:10] if arguments.quick else PLACES):
         place = Place(row, arguments.maps, settings)
+        if arguments.order:
+            wrong, pictures = place.order()
+            print(f"{number:5d} {place.name:25s} {' '.join(map(str, wrong)):24s} {pictures}", flush=True)
+            place.world.close()
+            continue
         line = f"{number:5d} {place.name:25s} {place.crawl(arguments.samples):8d} {place.contrast():9.2f}"
         if not arguments.quick:
             line += f" {place.psnr(arguments.samples):7.2f} {place.psnr_of_larger():7.2f} {place.cpu_ms():7.1f}"

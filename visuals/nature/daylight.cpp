@@ -108,15 +108,18 @@ const glm::vec3 usual_sunlight(0.80F, 0.78F, 0.74F);
 constexpr double min_ambient = 0.95;
 constexpr double min_horizon = 0.42;
 constexpr double eye_power = 0.6;           ///< how far the eye makes up for lost sunlight, in stops a stop
+constexpr double least_green = 0.96;        ///< of the mean of red and blue: less is lilac
 const glm::dvec3 low_tint(1.0, 0.88, 1.28); ///< a low sun's sky is less green than the model's
 
-/// The model's skies around a low sun are lemon and green: where red is stronger than blue, green keeps between both,
-/// nearer to red, and blue is not lost. `light`: linear, as it is displayed; `low`: 1 for a sun at the horizon, 0 for
-/// one that is high.
-glm::dvec3 without_lemon(const glm::dvec3& light, double low) {
+/// The model's skies around a low sun are lemon and green, and lilac away from it: where red is stronger than blue,
+/// green keeps between both, nearer to blue, and blue is not lost; elsewhere green is not much weaker than their mean.
+/// `light`: linear, as it is displayed; `low`: 1 for a sun at the horizon, 0 for one that is high.
+glm::dvec3 without_tints(const glm::dvec3& light, double low) {
     const double blue = std::max(light.z, 0.3 * light.x);
-    const double green = std::min(light.y, glm::mix(light.x, blue, 0.58));
-    return glm::mix(light, glm::dvec3(light.x, light.x > light.z ? green : light.y, blue), low);
+    const double most = glm::mix(light.x, blue, 0.58);
+    const double green =
+        light.x > light.z ? std::min(light.y, most) : std::max(light.y, least_green * 0.5 * (light.x + light.z));
+    return glm::mix(light, glm::dvec3(light.x, green, blue), low);
 }
 
 /// The sky's mean light around the horizon, but for the side of the sun.
@@ -182,6 +185,7 @@ Daylight::Daylight(const DaylightOptions& options)
                             sky_tint(usual, exposure_of(usual, usual_elevation_rad, usual_horizon));
     // The eye takes most of the light's own colour for white.
     ambient_ = usual_ambient * glm::vec3(glm::sqrt(tint) * glm::mix(min_ambient, 1.0, day));
+    ambient_.y = std::max(ambient_.y, static_cast<float>(least_green) * 0.5F * (ambient_.x + ambient_.z));
     const glm::dvec3 share = sunlight_share(elevation_rad);
     sunlight_ = usual_sunlight * glm::vec3(glm::min(share, glm::dvec3(1.15)));
     const glm::dvec3 pure = share / std::max({share.x, share.y, share.z});
@@ -193,7 +197,7 @@ glm::vec3 Daylight::displayed(const glm::dvec3& light) const {
     if (air_tint_) {
         return glm::vec3(models::srgb_from_linear(1.0 - glm::exp(-glm::dot(exposed, weights) * *air_tint_)));
     }
-    return glm::vec3(models::srgb_from_linear(without_lemon(1.0 - glm::exp(-exposed), low_)));
+    return glm::vec3(models::srgb_from_linear(without_tints(1.0 - glm::exp(-exposed), low_)));
 }
 
 glm::vec3 Daylight::perez(double elevation_rad, double azimuth_rad) const {
