@@ -525,8 +525,8 @@ private:
             return density;
         };
         const terrain::GroundTiles& tiles = ground_->tiles();
-        decorations_.push_back(nature::scenery_decoration(-tiles.half_extent_m(), {tiles.columns(), tiles.rows()},
-            tiles.spacing_m(), daylight_of(settings.air), density_at));
+        decorations_.push_back(nature::scenery_decoration({-tiles.half_extent_m(), {tiles.columns(), tiles.rows()},
+            tiles.spacing_m(), daylight_of(settings.air), density_at, settings.has_shadows}));
     }
 
     bool adds_detail() const { return detail_.has_subdivision || detail_.scenery; }

@@ -41,7 +41,7 @@ double highest_m(const Ground& ground) {
 
 MeshSettings mesh_settings(const scene::Settings& settings, bool has_texture) {
     return {settings.ground, settings.air, settings.surface.hidden_surface == scene::HiddenSurface::DepthBuffer,
-        has_texture};
+        has_texture, settings.surface.shadows};
 }
 
 const nature::Backdrop& Ground::backdrop() const {

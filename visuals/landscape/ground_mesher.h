@@ -25,6 +25,8 @@ struct MeshSettings {
     bool is_front_to_back = false;
     /// A texture colours the ground: neither trees and houses nor roads are on it, which would get its colours.
     bool has_texture = false;
+    /// Whether what stands on the ground casts shadows on it.
+    bool has_shadows = true;
 };
 
 MeshSettings mesh_settings(const scene::Settings& settings, bool has_texture);

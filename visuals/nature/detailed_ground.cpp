@@ -58,6 +58,7 @@ void apply_detail_budget(const DetailBudget& budget, const NearDetailOptions& de
                                  : budget.share  ? static_cast<std::size_t>(things)
                                                  : unlimited_scenery_triangles;
     view.range_ratio = static_cast<float>(std::sqrt(std::min(share, 1.0)));
+    view.focal_px = static_cast<float>(budget.focal_px);
 }
 
 namespace {
@@ -152,18 +153,28 @@ public:
         added_ = 0;
     }
 
-    /// Appends a triangle in its parts to `indices`, nearest first; each part after what stands on it where
-    /// `has_scenery` says that anything does.
+    /// Appends a triangle in its parts to `indices`, nearest first; each part after what stands on it and its shadows
+    /// where `has_scenery` says that anything does.
     void add(const std::uint32_t* corners, bool has_scenery, std::vector<std::uint32_t>& indices) {
-        add_subdivided({corners[0], corners[1], corners[2]}, 0, has_scenery, indices);
+        add_subdivided(
+            {corners[0], corners[1], corners[2]}, 0, has_scenery ? SceneryState::Below : SceneryState::None, indices);
     }
 
     /// Appends what stands on a triangle.
-    void add_standing(const std::array<glm::vec3, 3>& triangle_m, std::vector<std::uint32_t>& indices) {
+    void add_standing(const std::uint32_t* corners, std::vector<std::uint32_t>& indices) {
+        const std::array triangle{vertices_[corners[0]], vertices_[corners[1]], vertices_[corners[2]]};
         const std::size_t before = indices.size();
         for (const auto& decoration : *decorations_) {
-            decoration->add_standing(triangle_m, {vertices_, indices, standing_});
+            decoration->add_standing(triangle, {vertices_, indices, standing_});
         }
+        scenery_triangles_ += (indices.size() - before) / 3;
+    }
+
+    /// Appends the shadows on a part of the triangle of the last add_standing().
+    void add_shadows(const std::uint32_t* corners, std::vector<std::uint32_t>& indices) {
+        const std::array part{vertices_[corners[0]], vertices_[corners[1]], vertices_[corners[2]]};
+        const std::size_t before = indices.size();
+        for (const auto& decoration : *decorations_) { decoration->add_shadows(part, {vertices_, indices, standing_}); }
         scenery_triangles_ += (indices.size() - before) / 3;
     }
 
@@ -182,6 +193,9 @@ private:
         std::uint32_t vertex = 0;
         std::uint32_t frame = 0;
     };
+
+    /// What stands on a triangle and its parts: nothing, or something that is added with parts of it, or was added.
+    enum class SceneryState { None, Below, Added };
 
     struct TriangleIndices {
         std::uint32_t a;
@@ -266,7 +280,7 @@ private:
     /// its parts down to quarters of cells, unless a cut goes through quarters, as it does where a longer edge stays
     /// whole.
     void add_subdivided(
-        const TriangleIndices& triangle, int depth, bool has_scenery, std::vector<std::uint32_t>& indices) {
+        const TriangleIndices& triangle, int depth, SceneryState scenery, std::vector<std::uint32_t>& indices) {
         const TriangleIndices turns[3] = {
             triangle, {triangle.b, triangle.c, triangle.a}, {triangle.c, triangle.a, triangle.b}};
         const TriangleIndices* longest = nullptr;
@@ -286,12 +300,14 @@ private:
             }
         }
         const bool cuts_quarters = length2 < most2;
-        if (has_scenery && (longest == nullptr || cuts_quarters || is_quarter_cell(triangle))) {
-            add_standing(corners_of(triangle), indices);
-            has_scenery = false;
+        const std::array corners{triangle.a, triangle.b, triangle.c};
+        if (scenery == SceneryState::Below && (longest == nullptr || cuts_quarters || is_quarter_cell(triangle))) {
+            add_standing(corners.data(), indices);
+            scenery = SceneryState::Added;
         }
         if (longest == nullptr) {
-            for (const std::uint32_t corner : {triangle.a, triangle.b, triangle.c}) { indices.push_back(corner); }
+            if (scenery == SceneryState::Added) { add_shadows(corners.data(), indices); }
+            indices.insert(indices.end(), corners.begin(), corners.end());
             return;
         }
         ++added_;
@@ -301,8 +317,8 @@ private:
         const glm::vec3& cut_to = vertices_[middle].position_m;
         const bool eye_by_first = (signed_area2(cut_from, cut_to, glm::vec3(0.0F)) > 0.0F) ==
                                   (signed_area2(cut_from, cut_to, vertices_[longest->a].position_m) > 0.0F);
-        add_subdivided(eye_by_first ? first : second, depth + 1, has_scenery, indices);
-        add_subdivided(eye_by_first ? second : first, depth + 1, has_scenery, indices);
+        add_subdivided(eye_by_first ? first : second, depth + 1, scenery, indices);
+        add_subdivided(eye_by_first ? second : first, depth + 1, scenery, indices);
     }
 
     NearDetailView view_;
@@ -530,7 +546,8 @@ DetailedGround::Triangles DetailedGround::detailed_mesh(const terrain::GroundMes
             mesh_builder.add(&mesh.indices[3 * triangle], has_scenery(triangle), frame.indices);
         } else {
             const auto before = static_cast<std::uint32_t>(frame.indices.size() / 3);
-            mesh_builder.add_standing(corners_m(triangle), frame.indices);
+            mesh_builder.add_standing(&mesh.indices[3 * triangle], frame.indices);
+            mesh_builder.add_shadows(&mesh.indices[3 * triangle], frame.indices);
             walk.append(step, step + 1, frame.indices, first_index_of);
             first_index_of[walk.place(step)] = before;
         }

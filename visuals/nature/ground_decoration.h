@@ -28,6 +28,7 @@ struct NearDetailView {
     std::size_t max_scenery_triangles = 5000; ///< triangles of what stands on it
     float min_edge_rad = 0.08F;               ///< edges of the ground that look shorter stay whole
     float range_ratio = 1.0F;                 ///< of the distance to which things stand
+    float focal_px = 869.0F;                  ///< as DetailBudget::focal_px
 };
 
 /// What may stand in a cell of the ground: shares of places, 0..1, and the sunlight there.
@@ -101,9 +102,14 @@ public:
     /// even below it.
     virtual bool stands_at(const glm::dvec2& /*place_m*/) { return false; }
 
-    /// Appends what stands on a triangle (world axes with the eye subtracted, as drawn), none of it below the
-    /// triangle's plane, from near to far; triangles are counter-clockwise seen from outside.
-    virtual void add_standing(const std::array<glm::vec3, 3>& /*triangle_m*/, const StandingTriangles& /*to*/) {}
+    /// Appends what stands on a triangle as drawn, none of it below the triangle's plane, from near to far; triangles
+    /// are counter-clockwise seen from outside.
+    virtual void add_standing(
+        const std::array<models::ColourVertex, 3>& /*triangle*/, const StandingTriangles& /*to*/) {}
+
+    /// Appends the shadows of what stands on the triangle of the last add_standing() and around it that fall on a part
+    /// of that triangle as drawn.
+    virtual void add_shadows(const std::array<models::ColourVertex, 3>& /*part*/, const StandingTriangles& /*to*/) {}
 
     // Lying: patches that are cut to the triangles of the ground and painted right after them.
 

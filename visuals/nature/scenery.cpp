@@ -3,6 +3,10 @@
 #include "models/colour_vertex.h"
 #include "sim/base/hash.h"
 #include "sim/base/plane.h"
+#include "visuals/nature/houses.h"
+#include "visuals/nature/plants.h"
+#include "visuals/nature/scenery_shadows.h"
+#include "visuals/nature/standing_mesh.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -12,283 +16,147 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
 namespace octant::visuals::nature {
 
-// Things of few polygons that are convex, or nearly: seen from outside, none of their front faces hides another.
-// Triangles are counter-clockwise seen from outside.
-
 namespace {
-
-/// Eight directions, counter-clockwise from east.
-constexpr std::array<glm::vec2, 8> compass_directions = {glm::vec2(1.0F, 0.0F), {0.70710678F, 0.70710678F},
-    {0.0F, 1.0F}, {-0.70710678F, 0.70710678F}, {-1.0F, 0.0F}, {-0.70710678F, -0.70710678F}, {0.0F, -1.0F},
-    {0.70710678F, -0.70710678F}};
-
-/// Appends vertices and triangles of things, which have none of the ground's fine pattern.
-struct LowPolyBuilder {
-    std::vector<models::ColourVertex>& vertices;
-    std::vector<std::uint32_t>& indices;
-
-    std::uint32_t add(const glm::vec3& at_m, const glm::vec3& colour) {
-        vertices.push_back({at_m, models::packed_colour(colour) & 0x00ffffffU});
-        return static_cast<std::uint32_t>(vertices.size() - 1);
-    }
-
-    void triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c) { indices.insert(indices.end(), {a, b, c}); }
-};
-
-/// Where a thing stands. Nothing of it lies below that plane, which may be painted before it.
-struct GroundAnchor {
-    glm::vec3 at_m;
-    glm::vec2 ground_slope; ///< metres up a metre east and north
-
-    /// Height of the ground over the foot, so far off.
-    float height_at_offset_m(const glm::vec2& off_m) const {
-        return ground_slope.x * off_m.x + ground_slope.y * off_m.y;
-    }
-};
-
-/// A tree's colours under light: of sides that face the compass, and from above.
-struct TreeColours {
-    std::array<glm::vec3, 8> sides;
-    glm::vec3 top;
-};
-
-enum class TreeShape { Conical, Round };
-
-/// How finely a tree is built. Far ones have four sides, others eight; near ones are rounder.
-enum class TreeLod { Near, Medium, Far };
-
-/// How a tree is built: heights and radii of rings over its height and radius, from below.
-struct Outline {
-    std::array<glm::vec2, 3> rings; ///< radius, height
-    int count;
-};
-
-constexpr Outline cone{{glm::vec2(1.0F, 0.10F), {}, {}}, 1};
-constexpr Outline crown{{glm::vec2(0.7F, 0.18F), {1.0F, 0.50F}, {}}, 2};
-constexpr Outline round_crown{{glm::vec2(0.45F, 0.12F), {1.0F, 0.42F}, {0.74F, 0.80F}}, 3};
-
-const Outline& outline_of(TreeShape shape, TreeLod detail) {
-    if (shape == TreeShape::Conical || detail == TreeLod::Far) { return cone; }
-    return detail == TreeLod::Near ? round_crown : crown;
-}
-
-/// `size_m`: radius and height. The crown's rings lie along the ground.
-void add_tree(LowPolyBuilder& to, const GroundAnchor& anchor, const glm::vec2& size_m, TreeShape shape, TreeLod detail,
-    const TreeColours& light) {
-    const Outline& outline = outline_of(shape, detail);
-    const std::uint32_t step = detail == TreeLod::Far ? 2 : 1;
-    const std::uint32_t sides = 8 / step;
-    const auto first = static_cast<std::uint32_t>(to.vertices.size());
-    for (int ring = 0; ring < outline.count; ++ring) {
-        const glm::vec2& at = outline.rings[static_cast<std::size_t>(ring)];
-        const float darker = 0.62F + 0.38F * at.y;
-        for (std::uint32_t side = 0; side < 8; side += step) {
-            const glm::vec2 out = size_m.x * at.x * compass_directions[side];
-            const float height_m = size_m.y * at.y + anchor.height_at_offset_m(out);
-            to.add(anchor.at_m + glm::vec3(out, height_m), light.sides[side] * darker);
-        }
-    }
-    const std::uint32_t top = to.add(anchor.at_m + glm::vec3(0.0F, 0.0F, size_m.y), light.top);
-    for (std::uint32_t ring = 0; ring < static_cast<std::uint32_t>(outline.count); ++ring) {
-        const std::uint32_t own = first + ring * sides;
-        const bool last = ring + 1 == static_cast<std::uint32_t>(outline.count);
-        for (std::uint32_t side = 0; side < sides; ++side) {
-            const std::uint32_t next = (side + 1) % sides;
-            if (last) {
-                to.triangle(own + side, own + next, top);
-            } else {
-                to.triangle(own + side, own + next, own + sides + next);
-                to.triangle(own + side, own + sides + next, own + sides + side);
-            }
-        }
-    }
-}
-
-/// Four walls and a gable roof. `along` (unit) is the ridge's direction, `size_m` half the length, half the width and
-/// the height; `height_share`, 0..1, says how much of the height there is yet; walls face along, to the left, back and
-/// to the right, the roof's sides left and right.
-void add_house(LowPolyBuilder& to, const GroundAnchor& anchor, const glm::vec2& along, const glm::vec3& size_m,
-    float height_share, const std::array<glm::vec3, 4>& wall, const std::array<glm::vec3, 2>& roof) {
-    const glm::vec2 across(-along.y, along.x);
-    const auto at = [&](float x, float y, float z) {
-        const glm::vec2 level = along * (x * size_m.x) + across * (y * size_m.y);
-        const float ground_m = anchor.height_at_offset_m(level);
-        return anchor.at_m + glm::vec3(level, ground_m + height_share * std::max(z - ground_m, 0.0F));
-    };
-    const float eaves_m = 0.58F * size_m.z;
-    const auto quad = [&](const std::array<glm::vec3, 4>& corner, const glm::vec3& colour) {
-        const std::uint32_t first = to.add(corner[0], colour);
-        for (std::size_t i = 1; i < 4; ++i) { to.add(corner[i], colour); }
-        to.triangle(first, first + 1, first + 2);
-        to.triangle(first, first + 2, first + 3);
-    };
-    constexpr float low = -1e3F; // metres: walls end at the ground
-    quad({at(1, -1, low), at(1, 1, low), at(1, 1, eaves_m), at(1, -1, eaves_m)}, wall[0]);
-    quad({at(1, 1, low), at(-1, 1, low), at(-1, 1, eaves_m), at(1, 1, eaves_m)}, wall[1]);
-    quad({at(-1, 1, low), at(-1, -1, low), at(-1, -1, eaves_m), at(-1, 1, eaves_m)}, wall[2]);
-    quad({at(-1, -1, low), at(1, -1, low), at(1, -1, eaves_m), at(-1, -1, eaves_m)}, wall[3]);
-    quad({at(1, 1, eaves_m), at(-1, 1, eaves_m), at(-1, 0, size_m.z), at(1, 0, size_m.z)}, roof[0]);
-    quad({at(-1, -1, eaves_m), at(1, -1, eaves_m), at(1, 0, size_m.z), at(-1, 0, size_m.z)}, roof[1]);
-    for (const float end : {1.0F, -1.0F}) {
-        const glm::vec3& colour = wall[end > 0.0F ? 0 : 2];
-        const std::uint32_t first = to.add(at(end, -end, eaves_m), colour);
-        to.add(at(end, end, eaves_m), colour);
-        to.add(at(end, 0, size_m.z), colour);
-        to.triangle(first, first + 1, first + 2);
-    }
-}
 
 constexpr std::size_t cache_size = std::size_t{1} << 15U;
 constexpr double max_reach_m = 900.0;
 constexpr double max_reach_cells = 30.0;
 constexpr double min_cell_m = 15.0; ///< denser ground bears something in some cells only
 constexpr float min_radius_m = 1.2F;
-constexpr float house_radius_m = 4.0F; ///< no house where less fits
-constexpr float house_m = 7.5F;        ///< its height
-constexpr float house_length = 1.25F;  ///< half of it, over the half size
-constexpr float house_width = 0.85F;
-constexpr float house_corner = 1.52F; ///< its farthest corner from its middle, likewise
-constexpr float near_lod_distance_m = 60.0F;
-constexpr float far_lod_distance_m = 130.0F;
+constexpr float max_height_m = 17.0F;           ///< of all things
+constexpr float house_circle_m = 4.0F;          ///< no house where less fits
 constexpr float first_growth_ratio = 0.35F;     ///< of the reach: all things have grown by then
-constexpr std::size_t upward_light_index = 8;   ///< place of the light from above, after the eight sides
+constexpr glm::vec2 shadow_px(70.0F, 130.0F);   ///< things look so high where their shadows begin and are whole
+constexpr float shadow_radius_m = 5.0F;         ///< of most of them
+constexpr float shadow_margin_m = 45.0F;        ///< beyond the picture, where things still cast shadows into it
+constexpr float min_full_px = 3.0F;             ///< things that would look lower have not wholly grown
 constexpr double placement_radius_ratio = 0.19; ///< radius that fits into a quarter of a cell, over its side
 
 /// Middles of the four quarters into which its diagonals cut a cell.
 constexpr std::array<glm::dvec2, 4> quarter_centres = {
     glm::dvec2(0.5, 0.2071), {0.7929, 0.5}, {0.5, 0.7929}, {0.2071, 0.5}};
 
-/// A share in [0, 1) of some of the bits.
-float share_of(std::uint32_t random_bits, unsigned shift) {
-    return static_cast<float>(random_bits >> shift & 0xffU) * (1.0F / 256.0F);
-}
-
-/// How large a tree is, in sizes of its species: 0.7 to 1.3.
-float size_of(std::uint32_t random_bits) { return 0.7F + 0.6F * share_of(random_bits, 16); }
-
-TreeLod detail_at(float distance_m) {
-    return distance_m < near_lod_distance_m  ? TreeLod::Near
-           : distance_m < far_lod_distance_m ? TreeLod::Medium
-                                             : TreeLod::Far;
-}
-
-/// Leaves out triangles from `first` on that face away: near the outline of a thing far off, where renderers cannot
-/// tell, they would be painted over those before them.
-void remove_back_faces(
-    const std::vector<models::ColourVertex>& vertices, std::size_t first, std::vector<std::uint32_t>& indices) {
-    std::size_t kept = first;
-    for (std::size_t i = first; i < indices.size(); i += 3) {
-        const glm::vec3& a = vertices[indices[i]].position_m;
-        const glm::vec3& b = vertices[indices[i + 1]].position_m;
-        const glm::vec3& c = vertices[indices[i + 2]].position_m;
-        if (glm::dot(glm::cross(b - a, c - a), a) < 0.0F) {
-            std::copy_n(&indices[i], 3, &indices[kept]);
-            kept += 3;
-        }
-    }
-    indices.resize(kept);
-}
-
-struct Species {
-    glm::vec3 colour;
-    float height_m;
-    float radius_m;
-    TreeShape shape;
+/// Circles in a circle of radius 1 that are apart, in one of which each plant stands: their middles and their radius.
+struct Slots {
+    std::span<const glm::vec2> middles;
+    float radius;
 };
 
-/// By kind: broadleaf, conifer, shrub.
-const Species& species_of(std::size_t kind) {
-    static const std::array<Species, 3> all = {Species{glm::vec3(0.25F, 0.36F, 0.15F), 9.0F, 4.3F, TreeShape::Round},
-        Species{glm::vec3(0.16F, 0.27F, 0.15F), 12.0F, 3.0F, TreeShape::Conical},
-        Species{glm::vec3(0.42F, 0.40F, 0.24F), 1.8F, 1.7F, TreeShape::Round}};
-    return all[kind - 1];
+constexpr std::array<glm::vec2, 1> one_slot{glm::vec2(0.0F)};
+constexpr std::array<glm::vec2, 3> three_slots{glm::vec2(0.0F, 0.535F), {-0.464F, -0.268F}, {0.464F, -0.268F}};
+constexpr std::array<glm::vec2, 7> seven_slots{glm::vec2(0.0F), {0.666F, 0.0F}, {0.333F, 0.577F}, {-0.333F, 0.577F},
+    {-0.666F, 0.0F}, {-0.333F, -0.577F}, {0.333F, -0.577F}};
+
+/// As many as leave room for a tree each.
+Slots slots_for(float radius_m) {
+    constexpr float room_m = 5.0F;
+    if (radius_m > 3.0F * room_m) { return {seven_slots, 0.333F}; }
+    if (radius_m > 2.155F * room_m) { return {three_slots, 0.464F}; }
+    return {one_slot, 1.0F};
 }
+
+/// How large a plant is, in sizes of its species: 0.7 to 1.3.
+float size_of(std::uint32_t random_bits) { return 0.7F + 0.6F * share_of(random_bits, 16); }
+
+struct Species {
+    PlantKind kind;
+    float height_m;
+    float radius_m;
+    float slenderness; ///< the greatest height over the radius
+};
+
+constexpr std::array species_of_plants = {Species{PlantKind::Broadleaf, 9.5F, 4.6F, 2.9F},
+    Species{PlantKind::Conifer, 13.0F, 3.1F, 4.8F}, Species{PlantKind::Shrub, 1.8F, 1.7F, 1.4F}};
 
 class Scenery final : public GroundDecoration {
 public:
-    Scenery(const glm::dvec2& first_m, const glm::ivec2& samples, double spacing_m, const Daylight& day,
-        SceneryDensityAt density_at)
-        : first_m_(first_m), samples_(samples), spacing_m_(spacing_m),
-          stride_(std::max(static_cast<int>(std::ceil(min_cell_m / spacing_m)), 1)),
-          max_radius_m_(static_cast<float>(placement_radius_ratio * spacing_m)),
-          reach_m_(max_radius_m_ < min_radius_m ? 0.0 : std::min(max_reach_m, max_reach_cells * stride_ * spacing_m)),
-          density_at_(std::move(density_at)), shade_(day.ambient()), item_cache_(cache_size) {
-        const glm::vec3 to_sun(day.to_sun());
-        for (std::size_t i = 0; i < compass_directions.size(); ++i) {
-            const glm::vec3 outwards =
-                glm::normalize(glm::vec3(compass_directions[i].x, compass_directions[i].y, 0.45F));
-            side_light_[i] = day.sunlight() * std::max(glm::dot(outwards, to_sun), 0.0F);
-        }
-        side_light_[upward_light_index] = day.sunlight() * std::max(to_sun.z, 0.0F);
-    }
+    explicit Scenery(SceneryGround ground)
+        : ground_(std::move(ground)), stride_(std::max(static_cast<int>(std::ceil(min_cell_m / ground_.spacing_m)), 1)),
+          max_radius_m_(static_cast<float>(placement_radius_ratio * ground_.spacing_m)),
+          slots_(slots_for(max_radius_m_)),
+          reach_m_(max_radius_m_ < min_radius_m ? 0.0
+                                                : std::min(max_reach_m, max_reach_cells * stride_ * ground_.spacing_m)),
+          plants_(ground_.day), shadows_(ground_.day), item_cache_(cache_size) {}
 
     void begin_standing(const NearDetailView& view) override {
         view_ = view;
+        view_reach_m_ = reach_m_ * static_cast<double>(view.range_ratio);
         added_ = 0;
+        shadow_reach_m_ = 0.0F;
+        if (ground_.has_shadows && view.order == terrain::PaintOrder::BackToFront && shadows_.are_cast()) {
+            shadow_reach_m_ = std::min(max_height_m * view.focal_px / shadow_px.x, static_cast<float>(view_reach_m_));
+        }
     }
 
-    double reach_m() const override { return reach_m_ * static_cast<double>(view_.range_ratio); }
+    double reach_m() const override { return view_reach_m_; }
 
-    double height_m() const override { return 16.0; }
+    double height_m() const override { return static_cast<double>(max_height_m); }
 
     bool stands_at(const glm::dvec2& place_m) override {
         constexpr double near = 0.01; // of a cell
         if (reach_m_ <= 0.0) { return false; }
-        const glm::dvec2 place = (place_m - first_m_) / spacing_m_;
+        const glm::dvec2 place = (place_m - ground_.first_m) / ground_.spacing_m;
         const glm::ivec2 min_cell(glm::floor(place - near));
         const glm::ivec2 max_cell(glm::floor(place + near));
-        for (int row = std::max(min_cell.y, 0); row <= std::min(max_cell.y, samples_.y - 2); ++row) {
-            for (int column = std::max(min_cell.x, 0); column <= std::min(max_cell.x, samples_.x - 2); ++column) {
+        for (int row = std::max(min_cell.y, 0); row <= std::min(max_cell.y, ground_.samples.y - 2); ++row) {
+            for (int column = std::max(min_cell.x, 0); column <= std::min(max_cell.x, ground_.samples.x - 2);
+                 ++column) {
                 if (row % stride_ != 0 || column % stride_ != 0) { continue; }
                 const glm::dvec2 from_middle = place - glm::dvec2(column, row) - 0.5;
-                for (int quarter_index = 0; quarter_index < 4; ++quarter_index) {
-                    const glm::dvec2 way = quarter_centres[static_cast<std::size_t>(quarter_index)] - 0.5;
+                for (int quarter = 0; quarter < 4; ++quarter) {
+                    const glm::dvec2 way = quarter_centres[static_cast<std::size_t>(quarter)] - 0.5;
                     const bool upright = std::abs(way.y) > std::abs(way.x);
                     const double out =
                         upright ? std::copysign(1.0, way.y) * from_middle.y : std::copysign(1.0, way.x) * from_middle.x;
                     const double aside = std::abs(upright ? from_middle.x : from_middle.y);
-                    if (out > aside - near && item_at(column, row, quarter_index).kind != SceneryKind::None) {
-                        return true;
-                    }
+                    if (out > aside - near && bears_anything({column, row, quarter})) { return true; }
                 }
             }
         }
         return false;
     }
 
-    void add_standing(const std::array<glm::vec3, 3>& triangle_m, const StandingTriangles& to) override {
-        std::vector<models::ColourVertex>& vertices = to.vertices;
-        std::vector<std::uint32_t>& indices = to.indices;
+    void add_standing(const std::array<models::ColourVertex, 3>& triangle, const StandingTriangles& to) override {
+        const std::array triangle_m{triangle[0].position_m, triangle[1].position_m, triangle[2].position_m};
         placed_items_.clear();
-        collect(triangle_m);
+        for_each_quarter(box_of(triangle_m), view_reach_m_, [&](const Quarter& quarter, const glm::vec2& centre_m) {
+            const std::optional<GroundAnchor> ground = anchor_at(triangle, triangle_m, centre_m);
+            if (ground) { place_quarter(quarter, *ground, 0.0F); }
+        });
         std::ranges::sort(placed_items_,
             [&](const PlacedItem& one, const PlacedItem& other) { return one.power_m2 < other.power_m2; });
+        StandingMesh mesh{to.vertices, to.indices};
         for (const PlacedItem& one : placed_items_) {
-            const float distance_m = glm::length(one.at_m);
-            // Each grows out of the ground at a distance of its own.
-            const float begins_m =
-                static_cast<float>(reach_m()) *
-                (first_growth_ratio + (1.0F - first_growth_ratio) * share_of(one.item.random_bits, 0));
-            const float height_share = std::clamp(4.0F - 4.0F * distance_m / begins_m, 0.0F, 1.0F);
-            if (height_share <= 0.0F || added_ >= view_.max_scenery_triangles) { continue; }
-            const std::size_t before = indices.size();
-            const auto first_vertex = static_cast<std::uint32_t>(vertices.size());
+            if (added_ >= view_.max_scenery_triangles) { break; }
+            const std::size_t before = to.indices.size();
+            const auto first_vertex = static_cast<std::uint32_t>(to.vertices.size());
             const bool is_house = one.item.kind == SceneryKind::House;
             if (is_house) {
-                build_house(one, height_share, vertices, indices);
+                add_house(
+                    {one.anchor, house_half_m(), one.height_share, one.height_px, sun_of(one), one.item.random_bits},
+                    ground_.day, mesh);
             } else {
-                build_tree(one, height_share, detail_at(distance_m), vertices, indices);
+                plants_.add({species_of(one.item).kind, one.anchor, one.radius_m, one.height_m, one.height_px,
+                                sun_of(one), one.item.random_bits},
+                    mesh);
             }
-            remove_back_faces(vertices, before, indices);
-            to.runs.push_back({first_vertex, static_cast<std::uint32_t>(vertices.size()),
+            to.runs.push_back({first_vertex, static_cast<std::uint32_t>(to.vertices.size()),
                 is_house ? models::SurfaceClass::Building : models::SurfaceClass::Tree});
-            added_ += (indices.size() - before) / 3;
+            added_ += (to.indices.size() - before) / 3;
         }
+        find_casters(triangle, triangle_m);
+    }
+
+    void add_shadows(const std::array<models::ColourVertex, 3>& part, const StandingTriangles& to) override {
+        if (casters_.empty() || !shadows_.begin(part)) { return; }
+        for (const ShadowCaster& caster : casters_) { shadows_.add(caster, to); }
     }
 
 private:
@@ -305,36 +173,64 @@ private:
         SceneryItem item;
     };
 
+    /// A quarter of a cell of the grid.
+    struct Quarter {
+        int column;
+        int row;
+        int number;
+
+        glm::dvec2 centre() const {
+            return glm::dvec2(column, row) + quarter_centres[static_cast<std::size_t>(number)];
+        }
+    };
+
     struct PlacedItem {
-        glm::vec3 at_m;
-        glm::vec2 ground_slope; ///< of its ground, metres up a metre east and north
+        GroundAnchor anchor;
         SceneryItem item;
+        float radius_m = 0.0F;     ///< of the circle around its foot that holds it
+        float height_m = 0.0F;     ///< so far as it has grown
+        float height_px = 0.0F;    ///< in the picture
+        float height_share = 1.0F; ///< of the whole height
         /// The power of the eye in plan with respect to the circle around it: of two that stand apart, the one with the
         /// greater power hides no part of the other.
         float power_m2 = 0.0F;
     };
 
-    SceneryItem item_at(int column, int row, int quarter_index) {
-        const std::uint64_t place =
-            (static_cast<std::uint64_t>(row) << 32U | static_cast<std::uint64_t>(column) << 2U) +
-            static_cast<std::uint64_t>(quarter_index);
+    static const Species& species_of(const SceneryItem& item) {
+        return species_of_plants[static_cast<std::size_t>(item.kind) - 1];
+    }
+
+    static float sun_of(const PlacedItem& one) { return static_cast<float>(one.item.sun) * (1.0F / 255.0F); }
+
+    /// A house fills the quarter; it stands in the first slot.
+    bool bears_anything(const Quarter& quarter) {
+        for (std::uint32_t slot = 0; slot < slots_.middles.size(); ++slot) {
+            if (item_at(quarter, slot).kind != SceneryKind::None) { return true; }
+        }
+        return false;
+    }
+
+    SceneryItem item_at(const Quarter& quarter, std::uint32_t slot) {
+        const std::uint32_t in_cell = static_cast<std::uint32_t>(quarter.number) + 4U * slot;
+        const auto row = static_cast<std::uint32_t>(quarter.row);
+        const auto column = static_cast<std::uint32_t>(quarter.column);
+        const std::uint64_t place = (std::uint64_t{row} << 32U | std::uint64_t{column} << 5U) + in_cell;
         const std::uint32_t random_bits =
-            scrambled(static_cast<std::uint32_t>(column * 4 + quarter_index) * 0x9e3779b1U ^
-                      scrambled(static_cast<std::uint32_t>(row)));
+            scrambled((column * 4U + in_cell % 4U) * 0x9e3779b1U ^ scrambled(row ^ slot * 0x85ebca77U));
         CachedItem& known = item_cache_[random_bits & (cache_size - 1)];
         if (known.place != place) {
-            const SceneryDensity& scenery_density = density_of(column, row);
+            const SceneryDensity& density = density_of(quarter.column, quarter.row);
             const float pick = share_of(random_bits, 24) + share_of(random_bits, 16) * (1.0F / 256.0F);
-            float sum = scenery_density.houses;
+            const bool may_be_house = slot == 0 && max_radius_m_ >= house_circle_m;
+            float sum = may_be_house ? density.houses : 0.0F;
             SceneryKind kind = pick < sum ? SceneryKind::House : SceneryKind::None;
-            for (const auto& [share, own] : {std::pair(scenery_density.conifers, SceneryKind::Conifer),
-                     std::pair(scenery_density.broadleaves, SceneryKind::Broadleaf),
-                     std::pair(scenery_density.shrubs, SceneryKind::Shrub)}) {
+            for (const auto& [share, own] : {std::pair(density.conifers, SceneryKind::Conifer),
+                     std::pair(density.broadleaves, SceneryKind::Broadleaf),
+                     std::pair(density.shrubs, SceneryKind::Shrub)}) {
                 sum += share;
                 kind = kind == SceneryKind::None && pick < sum ? own : kind;
             }
-            if (kind == SceneryKind::House && max_radius_m_ < house_radius_m) { kind = SceneryKind::None; }
-            known = {place, {kind, static_cast<std::uint8_t>(std::clamp(scenery_density.sun, 0.0F, 1.0F) * 255.0F),
+            known = {place, {kind, static_cast<std::uint8_t>(std::clamp(density.sun, 0.0F, 1.0F) * 255.0F),
                                 scrambled(random_bits)}};
         }
         return known.item;
@@ -343,120 +239,174 @@ private:
     /// The quarters of a cell follow one another.
     const SceneryDensity& density_of(int column, int row) {
         if (last_cell_ != glm::ivec2(column, row)) {
-            last_density_ = density_at_(column, row);
+            last_density_ = ground_.density_at(column, row);
             last_cell_ = {column, row};
         }
         return last_density_;
     }
 
-    /// What stands within a triangle, with the ground below it as drawn.
-    void collect(const std::array<glm::vec3, 3>& triangle_m) {
+    /// A rectangle of the plan, metres east and north of the eye.
+    struct PlanBox {
+        glm::vec2 min_m;
+        glm::vec2 max_m;
+    };
+
+    static PlanBox box_of(const std::array<glm::vec3, 3>& triangle_m) {
         const auto& [a, b, c] = triangle_m;
-        const glm::dvec2 to_grid = glm::dvec2(view_.eye_m) - first_m_;
-        const glm::dvec2 min_cell = (to_grid + glm::dvec2(glm::min(glm::min(a, b), c))) / spacing_m_ + 0.01;
-        const glm::dvec2 max_cell = (to_grid + glm::dvec2(glm::max(glm::max(a, b), c))) / spacing_m_ - 0.01;
-        const float area = signed_area2(a, b, c);
-        const glm::vec3 across = glm::cross(b - a, c - a);
-        const glm::vec2 ground_slope = glm::vec2(across) / -across.z;
-        const auto reach2_m2 = static_cast<float>(reach_m() * reach_m());
+        return {glm::vec2(glm::min(glm::min(a, b), c)), glm::vec2(glm::max(glm::max(a, b), c))};
+    }
+
+    /// Calls `visit` for the quarters of the cells that reach into a box and are no farther than that from the eye,
+    /// with their centres.
+    template <typename Visit>
+    void for_each_quarter(const PlanBox& box, double reach_m, const Visit& visit) {
+        const glm::dvec2 to_grid = glm::dvec2(view_.eye_m) - ground_.first_m;
+        const glm::dvec2 min_cell = (to_grid + glm::dvec2(box.min_m)) / ground_.spacing_m + 0.01;
+        const glm::dvec2 max_cell = (to_grid + glm::dvec2(box.max_m)) / ground_.spacing_m - 0.01;
         const auto first_of = [&](double from) {
             const int cell = std::max(static_cast<int>(std::floor(from)), 0);
             return (cell + stride_ - 1) / stride_ * stride_;
         };
-        const int last_column = std::min(static_cast<int>(std::floor(max_cell.x)), samples_.x - 2);
-        const int last_row = std::min(static_cast<int>(std::floor(max_cell.y)), samples_.y - 2);
+        const float farthest_m = static_cast<float>(reach_m) + max_radius_m_;
+        const int last_column = std::min(static_cast<int>(std::floor(max_cell.x)), ground_.samples.x - 2);
+        const int last_row = std::min(static_cast<int>(std::floor(max_cell.y)), ground_.samples.y - 2);
         for (int row = first_of(min_cell.y); row <= last_row; row += stride_) {
             for (int column = first_of(min_cell.x); column <= last_column; column += stride_) {
-                for (int quarter_index = 0; quarter_index < 4; ++quarter_index) {
-                    const glm::dvec2 place =
-                        (glm::dvec2(column, row) + quarter_centres[static_cast<std::size_t>(quarter_index)]) *
-                            spacing_m_ -
-                        to_grid;
-                    glm::vec3 at_m(glm::dvec3(place, 0.0));
-                    const float u = signed_area2(b, c, at_m) / area;
-                    const float v = signed_area2(c, a, at_m) / area;
-                    if (u < 0.0F || v < 0.0F || u + v > 1.0F) { continue; }
-                    at_m.z = u * a.z + v * b.z + (1.0F - u - v) * c.z;
-                    if (glm::dot(at_m, at_m) > reach2_m2) { continue; }
-                    const SceneryItem item = item_at(column, row, quarter_index);
-                    if (item.kind != SceneryKind::None) {
-                        const float radius = radius_m(item);
-                        const float power_m2 = at_m.x * at_m.x + at_m.y * at_m.y - radius * radius;
-                        placed_items_.push_back({at_m, ground_slope, item, power_m2});
-                    }
+                for (int number = 0; number < 4; ++number) {
+                    const Quarter quarter{column, row, number};
+                    const glm::vec2 centre_m(quarter.centre() * ground_.spacing_m - to_grid);
+                    if (glm::dot(centre_m, centre_m) <= farthest_m * farthest_m) { visit(quarter, centre_m); }
                 }
             }
         }
     }
 
+    /// The ground below a place, as drawn; nothing beyond the triangle.
+    static std::optional<GroundAnchor> anchor_at(const std::array<models::ColourVertex, 3>& triangle,
+        const std::array<glm::vec3, 3>& triangle_m, const glm::vec2& place_m) {
+        const auto& [a, b, c] = triangle_m;
+        const float area = signed_area2(a, b, c);
+        const glm::vec3 at_m(place_m, 0.0F);
+        const float u = signed_area2(b, c, at_m) / area;
+        const float v = signed_area2(c, a, at_m) / area;
+        if (u < 0.0F || v < 0.0F || u + v > 1.0F) { return std::nullopt; }
+        const float w = 1.0F - u - v;
+        return GroundAnchor{glm::vec3(place_m, u * a.z + v * b.z + w * c.z), slope_of(triangle_m),
+            u * rgb_of(triangle[0]) + v * rgb_of(triangle[1]) + w * rgb_of(triangle[2])};
+    }
+
+    static glm::vec3 rgb_of(const models::ColourVertex& vertex) {
+        const std::uint32_t colour = vertex.colour;
+        return glm::vec3(colour & 0xffU, colour >> 8U & 0xffU, colour >> 16U & 0xffU) * (1.0F / 255.0F);
+    }
+
+    static glm::vec2 slope_of(const std::array<glm::vec3, 3>& triangle_m) {
+        const glm::vec3 across = glm::cross(triangle_m[1] - triangle_m[0], triangle_m[2] - triangle_m[0]);
+        return glm::vec2(across) / -across.z;
+    }
+
+    /// Finds what casts shadows on a triangle: what stands there and sunwards of it, taken to stand in its plane.
+    void find_casters(const std::array<models::ColourVertex, 3>& triangle, const std::array<glm::vec3, 3>& triangle_m) {
+        casters_.clear();
+        const auto& [a, b, c] = triangle_m;
+        const glm::vec3 nearest_m =
+            glm::clamp(glm::vec3(0.0F), glm::min(glm::min(a, b), c), glm::max(glm::max(a, b), c));
+        const float reach_m = shadow_reach_m_;
+        if (glm::dot(nearest_m, nearest_m) > reach_m * reach_m || !shadows_.begin(triangle)) { return; }
+        placed_items_.clear();
+        const glm::vec2 slope = slope_of(triangle_m);
+        PlanBox box = box_of(triangle_m);
+        const glm::vec2 sunwards_m = shadows_.reach_m(max_height_m);
+        box.min_m += glm::min(sunwards_m, 0.0F) - shadow_radius_m;
+        box.max_m += glm::max(sunwards_m, 0.0F) + shadow_radius_m;
+        for_each_quarter(box, static_cast<double>(reach_m), [&](const Quarter& quarter, const glm::vec2& centre_m) {
+            const float ground_m = triangle_m[0].z + glm::dot(slope, centre_m - glm::vec2(triangle_m[0]));
+            place_quarter(quarter, {glm::vec3(centre_m, ground_m), slope}, shadow_margin_m);
+        });
+        for (const PlacedItem& one : placed_items_) {
+            const float strength = (one.height_px - shadow_px.x) / (shadow_px.y - shadow_px.x);
+            const ShadowCaster caster{
+                one.anchor.at_m, one.radius_m, one.height_m, std::min(strength, 1.0F) * sun_of(one)};
+            if (strength > 0.0F && shadows_.may_fall_on_triangle(caster)) { casters_.push_back(caster); }
+        }
+    }
+
+    /// Places what stands in a quarter, in view or no farther than a margin beyond. `centre`: of the quarter.
+    void place_quarter(const Quarter& quarter, const GroundAnchor& centre, float margin_m) {
+        const float slot_m = slots_.radius * max_radius_m_;
+        for (std::uint32_t slot = 0; slot < slots_.middles.size(); ++slot) {
+            const SceneryItem item = item_at(quarter, slot);
+            if (item.kind == SceneryKind::None) { continue; }
+            PlacedItem one{centre, item};
+            float height_m = house_height_m;
+            if (item.kind == SceneryKind::House) {
+                one.radius_m = house_radius * house_half_m();
+            } else {
+                const Species& species = species_of(item);
+                one.radius_m = std::min(size_of(item.random_bits) * species.radius_m, slot_m);
+                height_m = std::min(size_of(item.random_bits) * species.height_m, species.slenderness * one.radius_m);
+                const glm::vec2 off_m = max_radius_m_ * slots_.middles[slot] + (slot_m - one.radius_m) * moved(item);
+                one.anchor.at_m += glm::vec3(off_m, centre.height_at_offset_m(off_m));
+            }
+            if (grow(one, height_m, margin_m)) { placed_items_.push_back(one); }
+            if (item.kind == SceneryKind::House) { return; }
+        }
+    }
+
+    /// A place in the unit circle.
+    static glm::vec2 moved(const SceneryItem& item) {
+        const std::uint32_t bits = scrambled(item.random_bits);
+        const glm::vec2& way = compass_directions[bits & 7U];
+        const glm::vec2& other = compass_directions[bits >> 3U & 7U];
+        return way * (0.5F * share_of(bits, 8)) + other * (0.5F * share_of(bits, 16));
+    }
+
+    /// Each grows out of the ground at a distance of its own. False if nothing of it is seen.
+    bool grow(PlacedItem& one, float height_m, float margin_m) const {
+        const glm::vec3& at_m = one.anchor.at_m;
+        const float distance_m = glm::length(at_m);
+        const float full_px_m = height_m * view_.focal_px / min_full_px;
+        const float share = share_of(one.item.random_bits, 0);
+        const float begins_m =
+            std::min(static_cast<float>(view_reach_m_) * (first_growth_ratio + (1.0F - first_growth_ratio) * share),
+                full_px_m * (0.8F + 0.4F * share));
+        one.height_share = std::min(4.0F - 4.0F * distance_m / begins_m, 1.0F);
+        if (one.height_share <= 0.0F) { return false; }
+        const float room_m = one.radius_m + height_m + margin_m;
+        for (const glm::vec3& inwards : view_.frustum_normals) {
+            if (glm::dot(inwards, at_m) < -room_m) { return false; }
+        }
+        if (one.item.kind != SceneryKind::House) { one.radius_m *= one.height_share; }
+        one.height_m = height_m * one.height_share;
+        one.height_px = one.height_m * view_.focal_px / std::max(distance_m, 1.0F);
+        one.power_m2 = at_m.x * at_m.x + at_m.y * at_m.y - one.radius_m * one.radius_m;
+        return true;
+    }
+
     float house_half_m() const { return std::min(0.62F * max_radius_m_, 5.5F); }
 
-    /// Of a circle that holds it in plan, its middle where it stands.
-    float radius_m(const SceneryItem& item) const {
-        if (item.kind == SceneryKind::House) { return house_corner * house_half_m(); }
-        const Species& species = species_of(static_cast<std::size_t>(item.kind));
-        return std::min(size_of(item.random_bits) * species.radius_m, max_radius_m_);
-    }
-
-    /// A colour under the light on one of the eight sides, or from above.
-    glm::vec3 lit(const PlacedItem& one, const glm::vec3& own, std::size_t side) const {
-        const float sun = static_cast<float>(one.item.sun) * (1.0F / 255.0F);
-        return own * (shade_ + sun * side_light_[side]);
-    }
-
-    void build_house(const PlacedItem& one, float height_share, std::vector<models::ColourVertex>& vertices,
-        std::vector<std::uint32_t>& indices) const {
-        const std::uint32_t random_bits = one.item.random_bits;
-        const glm::vec3 plaster =
-            glm::mix(glm::vec3(0.86F, 0.82F, 0.74F), glm::vec3(0.72F, 0.60F, 0.48F), share_of(random_bits, 12));
-        const glm::vec3 tiles =
-            glm::mix(glm::vec3(0.56F, 0.27F, 0.18F), glm::vec3(0.36F, 0.34F, 0.34F), share_of(random_bits, 4));
-        const std::size_t turn = random_bits >> 20U & 7U;
-        const auto wall = [&](std::size_t eighths) { return lit(one, plaster, (turn + eighths) % 8); };
-        const auto roof = [&](std::size_t eighths) {
-            return 0.5F * (lit(one, tiles, (turn + eighths) % 8) + lit(one, tiles, upward_light_index));
-        };
-        const float half_m = house_half_m();
-        LowPolyBuilder to{vertices, indices};
-        add_house(to, {one.at_m, one.ground_slope}, compass_directions[turn],
-            glm::vec3(house_length * half_m, house_width * half_m, house_m), height_share,
-            {wall(0), wall(2), wall(4), wall(6)}, {roof(2), roof(6)});
-    }
-
-    void build_tree(const PlacedItem& one, float height_share, TreeLod detail,
-        std::vector<models::ColourVertex>& vertices, std::vector<std::uint32_t>& indices) const {
-        const Species& species = species_of(static_cast<std::size_t>(one.item.kind));
-        const glm::vec3 leaf = species.colour * (0.85F + 0.3F * share_of(one.item.random_bits, 8));
-        TreeColours light{{}, lit(one, leaf, upward_light_index)};
-        for (std::size_t side = 0; side < light.sides.size(); ++side) { light.sides[side] = lit(one, leaf, side); }
-        LowPolyBuilder to{vertices, indices};
-        add_tree(to, {one.at_m, one.ground_slope},
-            {radius_m(one.item), size_of(one.item.random_bits) * species.height_m * height_share}, species.shape,
-            detail, light);
-    }
-
-    glm::dvec2 first_m_;
-    glm::ivec2 samples_;
-    double spacing_m_;
+    SceneryGround ground_;
     int stride_;         ///< cells from one that bears something to the next
     float max_radius_m_; ///< of what fits into its triangle; too small: nothing stands anywhere
+    Slots slots_;
     double reach_m_;
-    SceneryDensityAt density_at_;
     glm::ivec2 last_cell_{-1};
-    SceneryDensity last_density_;           ///< in that cell
-    std::array<glm::vec3, 9> side_light_{}; ///< on the eight sides, then on what faces up; the shade
-    glm::vec3 shade_{0.4F};
+    SceneryDensity last_density_; ///< in that cell
+    PlantMesher plants_;
+    SceneryShadows shadows_;
+    float shadow_reach_m_ = 0.0F; ///< in this view
     NearDetailView view_;
+    double view_reach_m_ = 0.0;
     std::size_t added_ = 0; ///< triangles in this frame
     std::vector<CachedItem> item_cache_;
     std::vector<PlacedItem> placed_items_; ///< on one triangle
+    std::vector<ShadowCaster> casters_;    ///< of shadows on the triangle of the last add_standing()
 };
 
 } // namespace
 
-std::unique_ptr<GroundDecoration> scenery_decoration(const glm::dvec2& first_m, const glm::ivec2& samples,
-    double spacing_m, const Daylight& day, SceneryDensityAt density_at) {
-    return std::make_unique<Scenery>(first_m, samples, spacing_m, day, std::move(density_at));
+std::unique_ptr<GroundDecoration> scenery_decoration(SceneryGround ground) {
+    return std::make_unique<Scenery>(std::move(ground));
 }
 
 } // namespace octant::visuals::nature

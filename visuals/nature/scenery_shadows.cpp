@@ -1,0 +1,117 @@
+#include "visuals/nature/scenery_shadows.h"
+
+#include "sim/base/plane.h"
+#include "visuals/nature/standing_mesh.h"
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+namespace octant::visuals::nature {
+
+namespace {
+
+/// Directions all around, counter-clockwise.
+constexpr std::array<glm::vec2, 8> around = {glm::vec2(0.924F, 0.383F), {0.383F, 0.924F}, {-0.383F, 0.924F},
+    {-0.924F, 0.383F}, {-0.924F, -0.383F}, {-0.383F, -0.924F}, {0.383F, -0.924F}, {0.924F, -0.383F}};
+
+} // namespace
+
+SceneryShadows::SceneryShadows(const Daylight& day)
+    : to_sun_(day.to_sun()), level_(std::max(glm::length(glm::vec2(to_sun_)), 1e-3F)) {
+    const float sky = glm::dot(luminance_weights, day.ambient());
+    const float sun = glm::dot(luminance_weights, day.sunlight()) * std::max(to_sun_.z, 0.0F);
+    left_ = sky / std::max(sky + sun, 1e-3F);
+}
+
+bool SceneryShadows::begin(const std::array<models::ColourVertex, 3>& triangle) {
+    triangle_ = triangle;
+    const glm::vec3& a = triangle[0].position_m;
+    const glm::vec3& b = triangle[1].position_m;
+    const glm::vec3& c = triangle[2].position_m;
+    const glm::vec3 up = glm::cross(b - a, c - a);
+    if (up.z <= 0.0F || glm::dot(up, a) >= 0.0F) { return false; }
+    area_m2_ = up.z;
+    slope_ = glm::vec2(up) / -up.z;
+    const float sinks = to_sun_.z - glm::dot(slope_, glm::vec2(to_sun_));
+    shadow_per_m_ = -glm::vec2(to_sun_) / std::max(sinks, level_ / max_length);
+    for (std::size_t i = 0; i < 3; ++i) {
+        const glm::vec2 side(triangle[(i + 1) % 3].position_m - triangle[i].position_m);
+        inwards_[i] = glm::normalize(glm::vec2(-side.y, side.x));
+    }
+    return true;
+}
+
+void SceneryShadows::cut(Outline& outline, const glm::vec2& from_m, const glm::vec2& inwards) {
+    Outline kept;
+    for (std::size_t i = 0; i < outline.count; ++i) {
+        const glm::vec2& a = outline.at_m[i];
+        const glm::vec2& b = outline.at_m[i + 1 < outline.count ? i + 1 : 0];
+        const float a_in = glm::dot(inwards, a - from_m);
+        const float b_in = glm::dot(inwards, b - from_m);
+        if (a_in >= 0.0F) { kept.at_m[kept.count++] = a; }
+        if ((a_in > 0.0F && b_in < 0.0F) || (a_in < 0.0F && b_in > 0.0F)) {
+            kept.at_m[kept.count++] = glm::mix(a, b, a_in / (a_in - b_in));
+        }
+    }
+    outline = kept;
+}
+
+/// Of the triangle's plane, which need not be that on which the caster stands.
+std::optional<SceneryShadows::Ellipse> SceneryShadows::shadow_of(const ShadowCaster& caster) const {
+    const glm::vec2 foot_m(caster.foot_m);
+    const glm::vec3& corner_m = triangle_[0].position_m;
+    const float over_plane_m = caster.foot_m.z - corner_m.z - glm::dot(slope_, foot_m - glm::vec2(corner_m));
+    const glm::vec2 half_m = 0.5F * caster.height_m * shadow_per_m_;
+    const float drawn_out_m = glm::length(half_m);
+    Ellipse ellipse{foot_m + half_m + over_plane_m * shadow_per_m_,
+        drawn_out_m > 1e-3F ? half_m / drawn_out_m : glm::vec2(1.0F, 0.0F),
+        std::sqrt(caster.radius_m * caster.radius_m + drawn_out_m * drawn_out_m), {}};
+    for (std::size_t i = 0; i < 3; ++i) {
+        const float inside_m = glm::dot(inwards_[i], ellipse.middle_m - glm::vec2(triangle_[i].position_m));
+        if (inside_m <= -ellipse.long_m) { return std::nullopt; }
+        ellipse.crosses[i] = inside_m < ellipse.long_m;
+    }
+    return ellipse;
+}
+
+void SceneryShadows::add(const ShadowCaster& caster, const StandingTriangles& to) const {
+    const std::optional<Ellipse> ellipse = shadow_of(caster);
+    if (!ellipse) { return; }
+    const glm::vec2 aside(-ellipse->along.y, ellipse->along.x);
+    Outline outline;
+    for (const glm::vec2& way : around) {
+        outline.at_m[outline.count++] =
+            ellipse->middle_m + way.x * ellipse->long_m * ellipse->along + way.y * caster.radius_m * aside;
+    }
+    for (std::size_t i = 0; i < 3; ++i) {
+        if (ellipse->crosses[i]) { cut(outline, glm::vec2(triangle_[i].position_m), inwards_[i]); }
+    }
+    if (outline.count < 3) { return; }
+    const auto& [a, b, c] = triangle_;
+    const float left = glm::mix(1.0F, left_, caster.strength);
+    const auto first = static_cast<std::uint32_t>(to.vertices.size());
+    for (std::size_t i = 0; i < outline.count; ++i) {
+        const glm::vec3 at_m(
+            outline.at_m[i], a.position_m.z + glm::dot(slope_, outline.at_m[i] - glm::vec2(a.position_m)));
+        const float u = std::clamp(signed_area2(b.position_m, c.position_m, at_m) / area_m2_, 0.0F, 1.0F);
+        const float v = std::clamp(signed_area2(c.position_m, a.position_m, at_m) / area_m2_, 0.0F, 1.0F - u);
+        std::uint32_t colour = 0;
+        for (unsigned shift = 0; shift < 32; shift += 8) {
+            const auto part = [&](const models::ColourVertex& corner) {
+                return static_cast<float>(corner.colour >> shift & 0xffU);
+            };
+            const float mean = u * part(a) + v * part(b) + (1.0F - u - v) * part(c);
+            colour |= static_cast<std::uint32_t>((shift < 24 ? left : 1.0F) * mean + 0.5F) << shift;
+        }
+        to.vertices.push_back({at_m, colour});
+    }
+    for (std::uint32_t i = 2; i < outline.count; ++i) {
+        to.indices.insert(to.indices.end(), {first, first + i - 1, first + i});
+    }
+}
+
+} // namespace octant::visuals::nature

@@ -1,0 +1,82 @@
+#pragma once
+
+#include "models/colour_vertex.h"
+#include "visuals/nature/daylight.h"
+#include "visuals/nature/ground_decoration.h"
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <optional>
+
+namespace octant::visuals::nature {
+
+/// What casts a shadow: an upright ellipsoid on the ground.
+struct ShadowCaster {
+    glm::vec3 foot_m{0.0F}; ///< world axes with the eye subtracted
+    float radius_m = 1.0F;
+    float height_m = 1.0F;
+    float strength = 1.0F; ///< 1: all sunlight is taken away; 0: none
+};
+
+/// Cuts the shadows of what stands on the ground to a triangle of the ground. The shadows lie in its plane and show its
+/// colours and its detail pattern, darker; where two overlap the nearer caster's hides the other, so that overlapping
+/// shadows of one strength change nothing.
+class SceneryShadows {
+public:
+    explicit SceneryShadows(const Daylight& day);
+
+    /// False if the sun is so low that nothing casts a shadow.
+    bool are_cast() const { return to_sun_.z > min_sun_height; }
+
+    /// How far sunwards of a shadow its caster may stand, for casters of a height, east and north.
+    glm::vec2 reach_m(float height_m) const {
+        return glm::vec2(to_sun_) * (std::min(max_length, 1.3F * level_ / to_sun_.z) * height_m / level_);
+    }
+
+    /// Begins a triangle of the ground. False if it faces away.
+    bool begin(const std::array<models::ColourVertex, 3>& triangle);
+
+    /// False only if no part of the shadow falls on the triangle.
+    bool may_fall_on_triangle(const ShadowCaster& caster) const { return shadow_of(caster).has_value(); }
+
+    /// Appends the part of a shadow that falls on the triangle, if there is any.
+    void add(const ShadowCaster& caster, const StandingTriangles& to) const;
+
+private:
+    static constexpr float min_sun_height = 0.05F; ///< sine of its elevation
+    static constexpr float max_length = 2.5F;      ///< of a shadow, over its caster's height
+    static constexpr std::size_t corners = 8;
+
+    /// A convex polygon on the plan; each of three cuts adds a corner.
+    struct Outline {
+        std::array<glm::vec2, corners + 3> at_m{};
+        std::size_t count = 0;
+    };
+
+    /// An ellipse on the plan.
+    struct Ellipse {
+        glm::vec2 middle_m;
+        glm::vec2 along;             ///< unit
+        float long_m;                ///< half its length
+        std::array<bool, 3> crosses; ///< which sides of the triangle
+    };
+
+    std::optional<Ellipse> shadow_of(const ShadowCaster& caster) const;
+    static void cut(Outline& outline, const glm::vec2& from_m, const glm::vec2& inwards);
+
+    glm::vec3 to_sun_;
+    float level_;       ///< cosine of the sun's elevation
+    float left_ = 0.5F; ///< the share of light that the sky gives
+    // The triangle.
+    std::array<models::ColourVertex, 3> triangle_{};
+    std::array<glm::vec2, 3> inwards_{}; ///< unit vectors across the sides from each corner to the next
+    glm::vec2 slope_{0.0F};
+    glm::vec2 shadow_per_m_{0.0F}; ///< where the shadow of what is a metre high falls
+    float area_m2_ = 1.0F;         ///< twice
+};
+
+} // namespace octant::visuals::nature
