@@ -14,16 +14,16 @@ namespace octant::visuals::nature {
 namespace {
 
 // Heights of plants in the picture, pixels.
-constexpr float outline_px = 26.0F;    ///< smaller ones are a polygon that faces the eye
-constexpr float bare_trunk_px = 34.0F; ///< crowns of this size reach down to the ground ...
+constexpr float outline_px = 34.0F;    ///< smaller ones are a polygon that faces the eye
+constexpr float bare_trunk_px = 36.0F; ///< crowns of this size reach down to the ground ...
 constexpr float full_trunk_px = 90.0F; ///< ... and have the whole trunk below them from this one on
 /// Where a level of the crown begins, and where its vertices have wholly come.
 constexpr std::array<glm::vec2, Icosphere::levels> level_px{
-    glm::vec2(0.0F), glm::vec2(34.0F, 60.0F), glm::vec2(120.0F, 200.0F)};
-constexpr float full_contrast_px = 110.0F;
-constexpr float min_contrast = 0.25F;
+    glm::vec2(0.0F), glm::vec2(64.0F, 100.0F), glm::vec2(180.0F, 300.0F)};
+constexpr float full_contrast_px = 80.0F;
+constexpr float min_contrast = 0.35F;
 /// Smaller plants take on their ground's colour, of which they have the share `max_ground_share` in the end.
-constexpr glm::vec2 ground_colour_px(60.0F, 8.0F);
+constexpr glm::vec2 ground_colour_px(38.0F, 8.0F);
 constexpr float max_ground_share = 0.65F;
 
 constexpr float lowest_outline = 0.2F;

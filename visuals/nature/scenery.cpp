@@ -32,8 +32,8 @@ constexpr double min_cell_m = 15.0; ///< denser ground bears something in some c
 constexpr float min_radius_m = 1.2F;
 constexpr float max_height_m = 17.0F;           ///< of all things
 constexpr float house_circle_m = 4.0F;          ///< no house where less fits
-constexpr float first_growth_ratio = 0.35F;     ///< of the reach: all things have grown by then
-constexpr glm::vec2 shadow_px(70.0F, 130.0F);   ///< things look so high where their shadows begin and are whole
+constexpr float first_growth_ratio = 0.28F;     ///< of the reach: all things have grown by then
+constexpr glm::vec2 shadow_px(45.0F, 80.0F);    ///< things look so high where their shadows begin and are whole
 constexpr float shadow_radius_m = 5.0F;         ///< of most of them
 constexpr float shadow_margin_m = 45.0F;        ///< beyond the picture, where things still cast shadows into it
 constexpr float min_full_px = 3.0F;             ///< things that would look lower have not wholly grown
@@ -367,9 +367,9 @@ private:
         const float distance_m = glm::length(at_m);
         const float full_px_m = height_m * view_.focal_px / min_full_px;
         const float share = share_of(one.item.random_bits, 0);
-        const float begins_m =
-            std::min(static_cast<float>(view_reach_m_) * (first_growth_ratio + (1.0F - first_growth_ratio) * share),
-                full_px_m * (0.8F + 0.4F * share));
+        const float begins_m = std::min(
+            static_cast<float>(view_reach_m_) * (first_growth_ratio + (1.0F - first_growth_ratio) * share * share),
+            full_px_m * (0.8F + 0.4F * share));
         one.height_share = std::min(4.0F - 4.0F * distance_m / begins_m, 1.0F);
         if (one.height_share <= 0.0F) { return false; }
         const float room_m = one.radius_m + height_m + margin_m;
