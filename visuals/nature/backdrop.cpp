@@ -14,7 +14,7 @@ namespace {
 /// own border.
 constexpr std::array ring_distance_ratios = {
     2.5, 1.8, 1.3, 1.0, 0.78, 0.62, 0.50, 0.40, 0.32, 0.25, 0.19, 0.135, 0.09, 0.05, 0.02, -0.01};
-constexpr int vertices_per_side = 80;
+constexpr int vertices_per_side = 48;
 constexpr int vertices_per_ring = 4 * vertices_per_side;
 constexpr double overlap_depth_ratio = 0.02; ///< of the last ring, over the map's mean half extent
 
