@@ -223,13 +223,15 @@ Crown make_crown(PlantKind kind, std::uint32_t variant) {
         const bool is_tree = kind == PlantKind::Broadleaf;
         crown.lowest = is_tree ? 0.10F : 0.03F;
         crown.centre = is_tree ? 0.48F : 0.35F;
-        if (is_tree) { surface[base_vertices - 1].radius *= 0.65F; } // the lowest
+        if (is_tree) { surface[base_vertices - 1].radius *= 0.65F; } // the lowest: crowns are flat below
         crown.half_height = (1.0F - crown.centre) / top;
     }
     place(crown, surface);
-    const auto lowest =
-        std::ranges::min_element(crown.vertices, {}, [](const Crown::Vertex& vertex) { return vertex.at.z; });
-    crown.lowest = lowest->at.z;
+    crown.lowest =
+        std::ranges::min_element(crown.vertices, {}, [](const Crown::Vertex& vertex) { return vertex.at.z; })->at.z;
+    // Straight below its centre the crown meets the trunk, at every level.
+    surface[base_vertices - 1].radius = (crown.centre - crown.lowest) / crown.half_height;
+    place(crown, surface);
     return crown;
 }
 

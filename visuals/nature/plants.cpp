@@ -223,7 +223,7 @@ void PlantMesher::add_outline(const Plant& plant, StandingMesh& to) const {
     constexpr std::array<glm::vec2, 5> pentagon{
         glm::vec2(0.588F, -0.809F), {0.951F, 0.309F}, {0.0F, 1.0F}, {-0.951F, 0.309F}, {-0.588F, -0.809F}};
     constexpr std::array<glm::vec2, 6> rounded{
-        glm::vec2(0.62F, -0.78F), {0.97F, -0.05F}, {0.55F, 0.83F}, {-0.45F, 0.89F}, {-0.97F, 0.10F}, {-0.66F, -0.75F}};
+        glm::vec2(0.55F, -0.83F), {0.98F, -0.10F}, {0.62F, 0.78F}, {-0.20F, 0.97F}, {-0.90F, 0.42F}, {-0.78F, -0.60F}};
     constexpr float centre = 0.52F;
     constexpr float half_height = 0.48F;
     const Species& species = species_[static_cast<std::size_t>(plant.kind)];

@@ -367,9 +367,10 @@ private:
         const float distance_m = glm::length(at_m);
         const float full_px_m = height_m * view_.focal_px / min_full_px;
         const float share = share_of(one.item.random_bits, 0);
-        const float begins_m = std::min(
-            static_cast<float>(view_reach_m_) * (first_growth_ratio + (1.0F - first_growth_ratio) * share * share),
-            full_px_m * (0.8F + 0.4F * share));
+        const float far_share = one.item.kind == SceneryKind::House ? share : share * share; // few plants are far
+        const float begins_m =
+            std::min(static_cast<float>(view_reach_m_) * (first_growth_ratio + (1.0F - first_growth_ratio) * far_share),
+                full_px_m * (0.8F + 0.4F * share));
         one.height_share = std::min(4.0F - 4.0F * distance_m / begins_m, 1.0F);
         if (one.height_share <= 0.0F) { return false; }
         const float room_m = one.radius_m + height_m + margin_m;
