@@ -6,6 +6,7 @@
 #include <array>
 #include <cassert>
 #include <cmath>
+#include <compare>
 #include <cstddef>
 #include <map>
 #include <numeric>
@@ -27,10 +28,14 @@ struct Corner {
     double angle_rad = 0.0;   ///< the face's interior angle
 };
 
-/// The corners at one vertex, and which of them are neighbours across an edge.
+/// The corners at one vertex, and which of them are neighbours across an edge: those whose faces run along it in
+/// opposite directions.
 class Around {
 public:
     Around(std::span<const SmoothFace> faces, std::span<const Corner> all) : faces_(faces), all_(all) {}
+
+    /// How often two corners were compared up to now.
+    std::size_t compared() const { return compared_; }
 
     /// Turns to another vertex. `corners` are the indices of all corners there, in ascending order.
     void look_at(std::span<const std::uint32_t> corners) {
@@ -40,17 +45,18 @@ public:
             for (std::uint32_t i = 0; i < corners.size(); ++i) { sums_[group(i)] += weighted_normal(i); }
             return;
         }
-        neighbours_.assign(corners.size(), {});
         edges_.clear();
+        sides_.clear();
+        across_.assign(corners.size(), {});
         for (std::uint32_t i = 0; i < corners.size(); ++i) {
-            edges_.push_back({corner(i).before, i, false});
-            edges_.push_back({corner(i).after, i, true});
+            edges_.push_back({corner(i).before, false, i});
+            edges_.push_back({corner(i).after, true, i});
         }
-        std::ranges::sort(edges_, {}, &Edge::other_end);
+        std::ranges::sort(edges_);
         for (std::size_t first = 0; first < edges_.size();) {
             std::size_t end = first;
             while (end < edges_.size() && edges_[end].other_end == edges_[first].other_end) { ++end; }
-            connect(std::span(edges_).subspan(first, end - first));
+            add_sides(std::span(edges_).subspan(first, end - first));
             first = end;
         }
     }
@@ -68,8 +74,10 @@ public:
 private:
     struct Edge {
         std::uint32_t other_end = 0;
-        std::uint32_t corner = 0;
         bool leaves = false; ///< The face runs from this vertex to the other end, not towards it.
+        std::uint32_t corner = 0;
+
+        auto operator<=>(const Edge&) const = default;
     };
 
     const Corner& corner(std::uint32_t i) const { return all_[corners_[i]]; }
@@ -80,31 +88,32 @@ private:
 
     glm::dvec3 weighted_normal(std::uint32_t i) const { return corner(i).angle_rad * face(i).normal; }
 
-    /// Makes neighbours of all corners whose faces run along one edge in opposite directions.
-    void connect(std::span<const Edge> same_edge) {
-        for (const Edge& leaving : same_edge) {
-            for (const Edge& coming : same_edge) {
-                if (leaving.leaves && !coming.leaves && leaving.corner != coming.corner) {
-                    neighbours_[leaving.corner].push_back(coming.corner);
-                    neighbours_[coming.corner].push_back(leaving.corner);
-                }
-            }
+    /// Splits the faces at one edge by their direction; `same_edge` is sorted.
+    void add_sides(std::span<const Edge> same_edge) {
+        const auto coming = static_cast<std::size_t>(std::ranges::count(same_edge, false, &Edge::leaves));
+        const auto side = static_cast<std::uint32_t>(sides_.size());
+        sides_.push_back(same_edge.first(coming));
+        sides_.push_back(same_edge.subspan(coming));
+        for (const Edge& edge : same_edge) {
+            across_[edge.corner].at(edge.leaves ? 1 : 0) = edge.leaves ? side : side + 1;
         }
     }
 
     /// Over the corners that share a smooth surface with `start`; in the order of corners, so that corners with the
-    /// same faces get the same bits.
+    /// same faces get the same bits. Whether a corner counts depends on it and `start` alone, so that each side of an
+    /// edge is looked at once.
     glm::dvec3 sum_of_reached(std::uint32_t start) {
         reached_.assign(corners_.size(), 0);
         reached_[start] = 1;
+        is_done_.assign(sides_.size(), 0);
         waiting_.assign(1, start);
         while (!waiting_.empty()) {
             const std::uint32_t from = waiting_.back();
             waiting_.pop_back();
-            for (const std::uint32_t to : neighbours_[from]) {
-                if (reached_[to] != 0 || !is_smooth_with(start, to)) { continue; }
-                reached_[to] = 1;
-                waiting_.push_back(to);
+            for (const std::uint32_t side : across_[from]) {
+                if (is_done_[side] != 0) { continue; }
+                is_done_[side] = 1;
+                reach(start, sides_[side]);
             }
         }
         glm::dvec3 sum(0.0);
@@ -112,6 +121,15 @@ private:
             sum += reached_[i] != 0 ? weighted_normal(i) : glm::dvec3(0.0);
         }
         return sum;
+    }
+
+    void reach(std::uint32_t start, std::span<const Edge> side) {
+        compared_ += side.size();
+        for (const Edge& edge : side) {
+            if (reached_[edge.corner] != 0 || !is_smooth_with(start, edge.corner)) { continue; }
+            reached_[edge.corner] = 1;
+            waiting_.push_back(edge.corner);
+        }
     }
 
     bool is_smooth_with(std::uint32_t start, std::uint32_t to) const {
@@ -125,10 +143,13 @@ private:
     std::span<const Corner> all_;
     std::span<const std::uint32_t> corners_;
     std::map<std::uint32_t, glm::dvec3> sums_; ///< by groups, where there are too many corners to compare
-    std::vector<std::vector<std::uint32_t>> neighbours_;
     std::vector<Edge> edges_;
+    std::vector<std::span<const Edge>> sides_;         ///< of each edge: the faces of one direction
+    std::vector<std::array<std::uint32_t, 2>> across_; ///< for each corner the sides opposite to it, at its two edges
     std::vector<std::uint8_t> reached_;
+    std::vector<std::uint8_t> is_done_; ///< for each side
     std::vector<std::uint32_t> waiting_;
+    std::size_t compared_ = 0;
 };
 
 std::vector<Corner> corners_of(std::span<const SmoothFace> faces, std::span<const glm::dvec3> vertices_m) {
@@ -149,7 +170,8 @@ std::vector<Corner> corners_of(std::span<const SmoothFace> faces, std::span<cons
 
 } // namespace
 
-std::vector<glm::vec3> smooth_normals(std::span<const SmoothFace> faces, std::span<const glm::dvec3> vertices_m) {
+std::vector<glm::vec3> smooth_normals(
+    std::span<const SmoothFace> faces, std::span<const glm::dvec3> vertices_m, std::size_t* compared) {
     const std::vector<Corner> corners = corners_of(faces, vertices_m);
     std::vector<std::uint32_t> sorted(corners.size());
     std::iota(sorted.begin(), sorted.end(), 0U);
@@ -164,6 +186,7 @@ std::vector<glm::vec3> smooth_normals(std::span<const SmoothFace> faces, std::sp
         for (std::uint32_t i = 0; i < here.size(); ++i) { normals[here[i]] = around.normal_at(i); }
         first = end;
     }
+    if (compared != nullptr) { *compared = around.compared(); }
     return normals;
 }
 

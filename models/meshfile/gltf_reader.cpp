@@ -677,7 +677,7 @@ private:
         mesh_.set_smoothing({Smoothing::flat}); // as the specification wants it where normals are missing
         if (normal) { first_normal = normals(*normal, count, placement, where); }
         std::vector<std::uint32_t> corners = corner_list(primitive, count, where);
-        const std::uint32_t used = is_tint    ? tinted_material(*material, *colour, where)
+        const std::uint32_t used = is_tint    ? tinted_material(*material, *colour, count, where)
                                    : material ? used_material(*material)
                                               : invalid_index;
         const std::uint32_t first_texture = texture_coordinates(material, *attributes, count);
@@ -746,7 +746,7 @@ private:
             mesh_.add_vertex(*place_m);
         }
         if (colour < data_.count_of("accessors")) {
-            take_colours(data_.accessor(colour), first, places.count(), where);
+            take_colours(colours_of(colour, places.count(), where), first, where);
         }
         const std::pair made(first, places.count());
         vertices_.emplace(std::pair(position, colour), made);
@@ -759,31 +759,40 @@ private:
         }
     }
 
-    void take_colours(const GltfAccessor& colours, std::uint32_t first, std::size_t count, const std::string& where) {
+    /// Refuses colours that are not one for each of `count` places.
+    GltfAccessor colours_of(std::size_t index, std::size_t count, const std::string& where) {
+        const GltfAccessor colours = data_.accessor(index);
         if (colours.parts() < 3 || colours.count() != count) {
             data_.refuse(where, fmt::format("a COLOR_0 of 3 or 4 numbers for each of {} places", count),
                 fmt::format("{} of {}", colours.count(), colours.parts()));
         }
-        for (std::size_t i = 0; i < count; ++i) {
+        return colours;
+    }
+
+    void take_colours(const GltfAccessor& colours, std::uint32_t first, const std::string& where) {
+        for (std::size_t i = 0; i < colours.count(); ++i) {
             const glm::dvec3 colour(colours.at(i, 0), colours.at(i, 1), colours.at(i, 2));
             check_colour(colour, where);
             mesh_.set_colour(first + static_cast<std::uint32_t>(i), glm::vec3(srgb_from_linear(colour)));
         }
     }
 
-    /// A material times the mean of colours of vertices: pictures are drawn in one tint.
-    std::uint32_t tinted_material(std::size_t index, std::size_t colours, const std::string& where) {
-        const std::uint32_t own = used_material(index);
-        const auto [known, is_new] = tinted_.try_emplace({index, colours}, own);
-        if (!is_new) { return known->second; }
-        const GltfAccessor list = data_.accessor(colours);
-        if (list.parts() < 3) {
-            data_.refuse(where, "a COLOR_0 of 3 or 4 numbers", fmt::format("one of {}", list.parts()));
-        }
+    /// What colours of vertices are to a picture.
+    struct Tint {
+        glm::dvec3 mean{1.0}; ///< linear in light
+        bool is_uneven = false;
+    };
+
+    /// Of the colours of an accessor, which are read once.
+    const Tint& tint_of(std::size_t index, std::size_t count, const std::string& where) {
+        const GltfAccessor list = colours_of(index, count, where);
+        const auto [known, is_new] = tints_.try_emplace(index);
+        if (!is_new || count == 0) { return known->second; }
+        count_numbers(count, where);
         glm::dvec3 sum(0.0);
         glm::dvec3 least(1.0);
         glm::dvec3 most(0.0);
-        for (std::size_t i = 0; i < list.count(); ++i) {
+        for (std::size_t i = 0; i < count; ++i) {
             const glm::dvec3 colour(list.at(i, 0), list.at(i, 1), list.at(i, 2));
             check_colour(colour, where);
             sum += colour;
@@ -791,11 +800,22 @@ private:
             most = glm::max(most, colour);
         }
         constexpr double even = 1.0 / 64.0;
-        if (most.x - least.x > even || most.y - least.y > even || most.z - least.z > even) { ++uneven_tints_; }
-        if (list.count() == 0 || (least == glm::dvec3(1.0) && most == glm::dvec3(1.0))) { return own; }
+        known->second = {sum / static_cast<double>(count),
+            most.x - least.x > even || most.y - least.y > even || most.z - least.z > even};
+        return known->second;
+    }
+
+    /// A material times the mean of colours of vertices, one for each of `count` places: pictures are drawn in one
+    /// tint.
+    std::uint32_t tinted_material(std::size_t index, std::size_t colours, std::size_t count, const std::string& where) {
+        const std::uint32_t own = used_material(index);
+        const Tint& tint = tint_of(colours, count, where);
+        const auto [known, is_new] = tinted_.try_emplace({index, colours}, own);
+        if (!is_new) { return known->second; }
+        if (tint.is_uneven) { ++uneven_tints_; }
+        if (tint.mean == glm::dvec3(1.0)) { return own; }
         Material tinted = mesh_.material(own);
-        tinted.colour = glm::vec3(
-            srgb_from_linear(linear_from_srgb(glm::dvec3(tinted.colour)) * sum / static_cast<double>(list.count())));
+        tinted.colour = glm::vec3(srgb_from_linear(linear_from_srgb(glm::dvec3(tinted.colour)) * tint.mean));
         known->second = mesh_.add_material(std::move(tinted));
         return known->second;
     }
@@ -919,6 +939,7 @@ private:
     MeshBuilder mesh_;
     std::vector<std::uint32_t> materials_;                                ///< of the file, as materials of the mesh
     std::map<std::pair<std::size_t, std::size_t>, std::uint32_t> tinted_; ///< by material and COLOR_0
+    std::map<std::size_t, Tint> tints_;                                   ///< by COLOR_0
     std::map<std::pair<std::size_t, std::size_t>, std::pair<std::uint32_t, std::size_t>> vertices_;
     std::map<std::size_t, std::pair<std::uint32_t, std::size_t>> normals_;
     std::vector<PlacedTexture> texture_coordinates_; ///< of the mesh at hand

@@ -26,22 +26,21 @@ namespace octant::visuals::raster {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// -- Triangles lie where they were set up, far apart for a tile: they are on their way from memory while others are
-// painted.
+// -- Triangles lie where they were set up, far apart for a tile: they are prefetched while others are painted.
 
 constexpr std::size_t triangles_ahead = 4;
 
-/// Calls a triangle from memory, if there is one of that number.
+/// Prefetches a triangle into the cache, if there is one of that number.
 HWY_INLINE void prefetch_triangle(std::span<const TileTriangle> triangles, std::size_t number) {
     if (number >= triangles.size()) { return; }
-    const auto call = [](const auto* from) HWY_ATTR {
+    const auto prefetch = [](const auto* from) HWY_ATTR {
         constexpr std::size_t cache_line = 64;
         const auto* const bytes = reinterpret_cast<const std::uint8_t*>(from);
         for (std::size_t at = 0; at < sizeof(*from); at += cache_line) { hwy::Prefetch(bytes + at); }
     };
     const TileTriangle& one = triangles[number];
-    call(one.triangle);
-    if (one.surface != nullptr) { call(one.surface); }
+    prefetch(one.triangle);
+    if (one.surface != nullptr) { prefetch(one.surface); }
     if (one.extra != nullptr) {
         hwy::Prefetch(&one.extra->depth);
         hwy::Prefetch(&one.extra->cut_count);

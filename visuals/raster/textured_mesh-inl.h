@@ -387,9 +387,9 @@ HWY_INLINE void place_fragments(
     }
 }
 
-/// Calls the texels of placed fragments from memory: those at their places in the level of the first one.
+/// Prefetches the texels of placed fragments: those at their places in the level of the first one.
 HWY_INLINE void prefetch_texels(const MeshTexture& from, const PlacedFragments& placed) {
-    constexpr std::int32_t in_cache = 64 * 64; // texels of a level that need no call
+    constexpr std::int32_t in_cache = 64 * 64; // texels of a level that is not prefetched
     const MeshTexture::Level& level = from.levels[static_cast<std::size_t>(placed.level[0])];
     const std::int32_t count = level.width * level.height;
     if (count <= in_cache) { return; }

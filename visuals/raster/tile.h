@@ -158,8 +158,8 @@ struct TileBuffer {
     alignas(64) std::array<std::uint16_t, mask_row * tile_height + padding> masks{};
     Coverage coverage{};
     TileFragments fragments; ///< of the textured triangle at hand
-    /// Fragments whose texels are on their way from memory, of any triangle (`waiting`; its count is 0 where none are),
-    /// and room for the next ones.
+    /// Fragments whose texels are being prefetched, of any triangle (`waiting`; its count is 0 where none are), and
+    /// room for the next ones.
     std::array<PlacedFragments, 2> placed;
     std::size_t waiting = 0;
     // Of groups that are drawn by depth: a value for each sample.

@@ -68,7 +68,7 @@ void set_surface(const std::array<std::uint32_t, 3>& corners, const DrawSlice& s
     setup.set_surface(&surface);
 }
 
-/// Calls the vertices of a triangle that is set up later, which lie anywhere in their model, from memory.
+/// Prefetches the vertices of a triangle that is set up later, which lie anywhere in their model.
 void prefetch_places(const DrawSlice& slice, std::size_t first_index) {
     constexpr std::size_t ahead = std::size_t{3} * 8;
     for (std::size_t i = first_index + ahead; i < std::min(first_index + ahead + 3, slice.indices.size()); ++i) {

@@ -76,6 +76,7 @@ models::TriangleMesh finest_mesh(const ProgressiveMesh& hierarchy) {
     const ProgressiveMeshData& parts = hierarchy.parts();
     models::TriangleMesh mesh;
     mesh.name = parts.name;
+    mesh.notes = parts.notes;
     for (std::uint32_t leaf = 0; leaf < hierarchy.leaf_count(); ++leaf) {
         mesh.vertices_m.push_back(parts.origin_m + glm::dvec3(hierarchy.position_m(leaf)));
         if (hierarchy.has_colours()) { mesh.colours.push_back(unpacked(hierarchy.packed_colour(leaf))); }

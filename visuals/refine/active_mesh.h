@@ -22,8 +22,8 @@ struct ActiveMesh {
 /// {(A(a), A(b), A(c))} over the original faces whose three active ancestors A differ.
 ActiveMesh active_mesh(const SelectiveRefiner& refiner);
 
-/// The original mesh of a hierarchy, its vertices numbered as the leaves and its triangles as the faces. Materials and
-/// colours are kept, normals left out.
+/// The original mesh of a hierarchy, its vertices numbered as the leaves and its triangles as the faces. Materials,
+/// colours and notes are kept, normals left out.
 models::TriangleMesh finest_mesh(const ProgressiveMesh& hierarchy);
 
 /// What the colours of a picture of the refinement show.

@@ -1,4 +1,5 @@
 #include "models/meshfile/mesh_file.h"
+#include "models/smooth_normals.h"
 #include "tests/models/meshfile/mesh_samples.h"
 
 #include <catch2/catch.hpp>
@@ -169,6 +170,30 @@ TEST_CASE("a vertex of very many triangles gets one normal, quickly") {
     }
     const TriangleMesh mesh = read_mesh(file_with("fan.obj", fan));
     CHECK(glm::distance(mesh.normals[mesh.corner_normals[0][0]], glm::vec3(0.0F, 0.0F, 1.0F)) < 1e-4F);
+}
+
+TEST_CASE("faces that share one edge are compared at most twice in pairs, and all of them are neighbours") {
+    constexpr std::uint32_t count = 300;
+    std::vector<glm::dvec3> vertices_m{{0.0, 0.0, 0.0}, {0.0, 0.0, 1.0}};
+    std::vector<Triangle> triangles;
+    for (std::uint32_t i = 0; i < count; ++i) { // runs along the edge upwards and downwards by turns
+        const double angle_rad = 3.0 * i / count;
+        vertices_m.emplace_back(std::cos(angle_rad), std::sin(angle_rad), 0.5);
+        triangles.push_back(i % 2 == 0 ? Triangle{0, 1, i + 2} : Triangle{1, 0, i + 2});
+    }
+    std::vector<SmoothFace> faces;
+    for (const Triangle& triangle : triangles) {
+        const glm::dvec3 along_m = vertices_m[triangle[1]] - vertices_m[triangle[0]];
+        const glm::dvec3 normal =
+            glm::normalize(glm::cross(along_m, vertices_m[triangle[2]] - vertices_m[triangle[0]]));
+        faces.push_back({triangle, normal, {Smoothing::flat + 1}});
+    }
+    std::size_t compared = 0;
+    const std::vector<glm::vec3> normals = smooth_normals(faces, vertices_m, &compared);
+    CHECK(compared > 0);
+    CHECK(compared <= std::size_t{2} * 2 * count * count + 2 * count); // two vertices of all faces
+    for (std::uint32_t i = 0; i < count; ++i) { CHECK(normals[3 * i] == normals[i % 2 == 0 ? 0 : 3]); }
+    CHECK(normals[0] == normals[4]); // both at the vertex of number 0
 }
 
 TEST_CASE("blades of a FlightGear rotor stand around it by their numbers") {

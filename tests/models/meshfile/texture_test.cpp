@@ -200,14 +200,15 @@ TEST_CASE("a damaged picture is reported, and its surfaces have their material's
 namespace {
 
 /// A glTF triangle with the picture Skin.tif; more of its material and of its attributes.
-TriangleMesh gltf_with_skin(
-    const std::shared_ptr<TextureStore>& store, const std::string& of_material, const std::string& attributes = "") {
+TriangleMesh gltf_with_skin(const std::shared_ptr<TextureStore>& store, const std::string& of_material,
+    const std::string& attributes = "", const std::string& more_accessors = "") {
     const std::string text = R"({"asset":{"version":"2.0"},"buffers":[{"byteLength":60,"uri":")" +
                              std::string("data:application/octet-stream;base64,") +
                              "AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAAAAAAAAAAAAAAAIA/AAAAAAAAAAAAAIA/" +
                              R"("}],"bufferViews":[{"buffer":0,"byteLength":36},{"buffer":0,"byteOffset":36,)" +
                              R"("byteLength":24}],"accessors":[{"bufferView":0,"componentType":5126,"count":3,)" +
-                             R"("type":"VEC3"},{"bufferView":1,"componentType":5126,"count":3,"type":"VEC2"}],)" +
+                             R"("type":"VEC3"},{"bufferView":1,"componentType":5126,"count":3,"type":"VEC2")" +
+                             more_accessors + R"(}],)" +
                              R"("images":[{"uri":"Skin.tif"}],"samplers":[{"wrapS":33071,"wrapT":33648}],)" +
                              R"("textures":[{"source":0,"sampler":0}],"materials":[{"pbrMetallicRoughness":)" +
                              R"({"baseColorTexture":{"index":0}})" + of_material +
@@ -248,6 +249,15 @@ TEST_CASE("colours of vertices tint a picture of glTF, in their mean; without pi
     REQUIRE(mesh.notes.size() == 1);
     CHECK_THAT(mesh.notes[0], Catch::Contains("1 surfaces with a picture have colours of vertices that vary"));
     CHECK(gltf_with_skin(nullptr, "", colours).colours.at(1) == glm::vec3(1.0F, 0.0F, 0.0F));
+}
+
+TEST_CASE("colours that are not one for each place are refused alike with a picture and without") {
+    file_with("skin.tif", tiff(2, 1, {255, 0, 0, 255, 0, 0, 255, 255}));
+    const std::string two_colours = R"(},{"bufferView":0,"componentType":5126,"count":2,"type":"VEC3")";
+    for (const auto& store : {std::make_shared<TextureStore>(), std::shared_ptr<TextureStore>()}) {
+        CHECK_THROWS_WITH(gltf_with_skin(store, "", R"(,"COLOR_0":2)", two_colours),
+            Catch::Contains("expected a COLOR_0 of 3 or 4 numbers for each of 3 places, got 2 of 3"));
+    }
 }
 
 TEST_CASE("a picture that is mostly neither clear nor opaque is glass, as a turning propeller's disc") {

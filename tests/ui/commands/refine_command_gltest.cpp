@@ -122,6 +122,15 @@ TEST_CASE("a saved progressive mesh refined everywhere is the original, face for
     CHECK(coarse["original_vertices"] == 300);
 }
 
+TEST_CASE("model info tells that a progressive mesh was cut off") {
+    write_sheet(refine_file("sheet.obj"));
+    refine({refine_file("sheet.obj"), "--base", "50", "--save", refine_file("cut.pm")});
+    std::filesystem::resize_file(refine_file("cut.pm"), std::filesystem::file_size(refine_file("cut.pm")) / 2);
+    const tests::ProgramRun info = run_octant({"model", "info", refine_file("cut.pm")});
+    CHECK(info.exit_code == 0);
+    CHECK_THAT(info.out + info.err, Catch::Contains("cut.pm: cut off at byte "));
+}
+
 TEST_CASE("any active mesh is what the original file and the list of nodes say") {
     const Faces originals = write_sheet(refine_file("sheet.obj"));
     std::vector<double> vertices;

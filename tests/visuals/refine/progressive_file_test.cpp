@@ -133,6 +133,7 @@ TEST_CASE("a file that was cut off is a coarser model with a note, or refused in
         const ProgressiveMesh cut = read_progressive(file("cut.pm"));
         REQUIRE(cut.parts().notes.size() == 1);
         CHECK(cut.parts().notes[0].find("splits are whole") != std::string::npos);
+        CHECK(finest_mesh(cut).notes == cut.parts().notes);
         CHECK(cut.leaf_count() >= last);
         last = cut.leaf_count();
         coarser += all_faces(cut).size() == cut.face_count() ? 1 : 0;
