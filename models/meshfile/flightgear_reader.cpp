@@ -206,7 +206,7 @@ private:
             const std::string path(child.text_of("path"));
             const std::string name(child.text_of("name"));
             const bool is_hidden = !name.empty() && animated.hidden.contains(name);
-            if (child.name == "model" && !path.empty() && !is_hidden && holds_at_rest(child, properties_)) {
+            if (child.name == "model" && !path.empty() && !is_hidden && is_there(child)) {
                 Inherited moved = own;
                 moved.outer.push_back({&own_animations, own.placement});
                 if (!name.empty()) {
@@ -217,6 +217,16 @@ private:
                 moved.placement = moved.placement.of(offsets(child));
                 take_named(file, path, moved, {}, depth);
             }
+        }
+    }
+
+    /// Whether a sub-model is there at rest; one with a faulty condition is.
+    bool is_there(const XmlElement& model) {
+        try {
+            return holds_at_rest(model, properties_);
+        } catch (const Error& fault) {
+            note_once(fmt::format("{}; this sub-model is always shown", fault.what()));
+            return true;
         }
     }
 
