@@ -330,12 +330,12 @@ TEST_CASE("rotors turn by their names where a property does not say what it is o
     file_with("blades.ac", ac3d_square("0x0", "Blades"));
     file_with("other.ac", ac3d_square("0x0", "wing"));
     const auto rate = [](const std::string& property, const std::string& axis) {
-        const auto file =
-            file_with("named.xml", "<PropertyList><path>blades.ac</path><model><path>other.ac</path></model><animation>"
-                                   "<type>spin</type><object-name>Blades</object-name><property>" +
-                                       property + "</property><axis><" + axis + ">1</" + axis +
-                                       "></axis><interpolation><entry><ind>0</ind><dep>0</dep></entry><entry><ind>400"
-                                       "</ind><dep>200</dep></entry></interpolation></animation></PropertyList>");
+        const auto file = file_with(
+            "named.xml", "<PropertyList><path>blades.ac</path><model><path>other.ac</path></model><animation>"
+                         "<type>spin</type><object-name>Blades</object-name><property>" +
+                             property + "</property><axis><" + axis + ">1</" + axis +
+                             "></axis><interpolation><entry><ind>0</ind><dep>0</dep></entry><entry><ind>400"
+                             "</ind><dep>200</dep></entry></interpolation></animation></PropertyList>");
         const RotatingModel model = read_rotating_model(file, {});
         return model.parts.empty() ? 0.0 : model.parts[0].about.turns_per_s;
     };
