@@ -16,6 +16,7 @@
 #include <fmt/format.h>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -418,6 +419,17 @@ MeshBuilder read_ac3d(const std::filesystem::path& path, const ReadOptions& opti
     ReadOptions all = options;
     all.placeholders = true;
     return Ac3dReading(path, text, all).read();
+}
+
+std::set<std::string> ac3d_object_names(const std::filesystem::path& path) {
+    const std::string text = read_text_file(path, largest_ac3d_bytes);
+    TextScanner words(path, text, mesh_text);
+    std::set<std::string> names;
+    for (std::string_view word; !(word = words.word_or_end()).empty();) {
+        std::string_view rest = words.rest_of_line();
+        if (word == "name") { names.insert(read_ac3d_name(rest, words)); }
+    }
+    return names;
 }
 
 std::string single_picture(const TriangleMesh& mesh) {

@@ -144,6 +144,7 @@ std::optional<ControlledVariable> controlled_property(std::string_view path) {
         controlled_properties, [&](const ControlledVariable& one) { return path.ends_with(one.name); });
     return found == controlled_properties.end() ? std::nullopt : std::optional(*found);
 }
+
 struct RestingValue {
     std::string_view end_of_path;
     std::string_view value;
@@ -255,7 +256,7 @@ constexpr std::array expression_functions{ExpressionFunction{"sum", sum_of, 1, a
 
 std::optional<double> term_value(const XmlElement& term, const RestingProperties& properties);
 
-/// The children that are terms, as numbers; nothing where one is not known.
+/// The children that are terms, as numbers; nothing where one is not finite.
 std::optional<Operands> operands_of(const XmlElement& function, const RestingProperties& properties) {
     Operands operands;
     for (const XmlElement& child : function.children) {
@@ -267,21 +268,39 @@ std::optional<Operands> operands_of(const XmlElement& function, const RestingPro
     return operands;
 }
 
-/// Nothing for a function that is not known, or of another number of operands, or whose result is not finite.
+/// Of a function's name. Throws Error for one that is not known.
+ExpressionFunction function_of(const XmlElement& term) {
+    if (term.name == "table" || term.name == "interpolate" || term.name == "clip") {
+        return {term.name, nullptr, 1, any_number};
+    }
+    const auto* const function = std::ranges::find(expression_functions, term.name, &ExpressionFunction::name);
+    if (function == expression_functions.end()) { term.refuse("a known function", in_quotes(term.name)); }
+    return *function;
+}
+
+/// Nothing where the result is not finite. Throws Error as expression_value does.
 std::optional<double> term_value(const XmlElement& term, const RestingProperties& properties) {
-    if (term.name == "value") { return finite_number(term.text); }
+    if (term.name == "value") {
+        const auto number = finite_number(term.text);
+        if (!number) { term.refuse("a number", in_quotes(term.text)); }
+        return number;
+    }
     if (term.name == "property") { return properties.number(term.text); }
+    const ExpressionFunction function = function_of(term);
     const auto operands = operands_of(term, properties);
-    if (!operands || operands->empty()) { return std::nullopt; }
+    if (!operands) { return std::nullopt; }
+    if (operands->size() < function.fewest || operands->size() > function.most) {
+        const char* const counted = function.most == any_number ? " or more terms"
+                                    : function.most == 1        ? " term"
+                                                                : " terms";
+        term.refuse(fmt::format("{}{} in {}", function.fewest, counted, term.name), std::to_string(operands->size()));
+    }
     if (term.name == "table" || term.name == "interpolate") { return interpolated_in(term, operands->front()); }
     if (term.name == "clip") {
         constexpr double any = std::numeric_limits<double>::max();
         return std::min(std::max(operands->front(), number_in(term, "clipMin", -any)), number_in(term, "clipMax", any));
     }
-    const auto* const function = std::ranges::find(expression_functions, term.name, &ExpressionFunction::name);
-    const bool is_known = function != expression_functions.end() && operands->size() >= function->fewest &&
-                          operands->size() <= function->most;
-    const double result = is_known ? function->of(*operands) : std::numeric_limits<double>::quiet_NaN();
+    const double result = function.of(*operands);
     return std::isfinite(result) ? std::optional(result) : std::nullopt;
 }
 
@@ -296,7 +315,9 @@ void add_properties(const XmlElement& element, std::vector<std::string>& propert
 } // namespace
 
 std::optional<double> expression_value(const XmlElement& expression, const RestingProperties& properties) {
-    return expression.children.size() == 1 ? term_value(expression.children.front(), properties) : std::nullopt;
+    const std::size_t terms = expression.children.size();
+    if (terms != 1) { expression.refuse("1 term in an expression", std::to_string(terms)); }
+    return term_value(expression.children.front(), properties);
 }
 
 namespace {
@@ -539,7 +560,7 @@ std::optional<FlightGearRotation> rotation_in_flight(const XmlElement& animation
 }
 
 /// Degrees, metres or a share, for the values of properties at rest; without any for the position at the start. `unit`:
-/// as its elements' names end. Nothing for an expression that is not known.
+/// as its elements' names end. Nothing for an expression whose value is not finite. Throws Error for faulty numbers.
 std::optional<double> value_at_rest(
     const XmlElement& animation, std::string_view unit, const RestingProperties& properties) {
     if (const XmlElement* expression = animation.find("expression")) {
@@ -585,7 +606,7 @@ std::vector<FlightControl> controls_of(const XmlElement& animation) {
 
 /// Where a `rotate` or `translate` animation puts things, and a further entry for each further control that moves them:
 /// what several controls do adds up. None for other animations, for those that leave everything where it is, whose
-/// condition does not hold at rest, or whose expression is not known. Throws Error for faulty numbers.
+/// condition does not hold at rest, or whose expression is not finite there. Throws Error for faulty numbers.
 std::vector<FlightGearRestPlacement> placements_at_rest(
     const XmlElement& animation, const RestingProperties& properties) {
     const std::string_view kind = animation.text_of("type");
@@ -667,39 +688,22 @@ void add_turn(FlightGearRotation turn, std::vector<FlightGearRotation>& turns) {
     }
 }
 
-/// What `read()` gives; an empty result for an animation whose numbers are faulty.
-template <typename Read>
-auto unless_faulty(const Read& read, std::vector<std::string>& notes) -> decltype(read()) {
-    try {
-        return read();
-    } catch (const Error& fault) {
-        notes.push_back(fmt::format("{}; what it moves is left at rest", fault.what()));
-        return {};
-    }
-}
-
-/// Whether an animation hides what it names from an eye outside, at rest. A blend of 1 is clear. Ranges that begin
-/// within some metres hide a pilot from his own eye; those that begin at a level of detail hold coarser levels, which
-/// are not needed: the finest one is refined. One whose numbers are faulty hides nothing.
-bool hides(const XmlElement& animation, const RestingProperties& properties, std::vector<std::string>& notes) {
+/// Whether an animation hides what it names from an eye outside, at rest. A blend of 0.99 and more is clear. Ranges
+/// that begin within some metres hide a pilot from his own eye; those that begin at a level of detail hold coarser
+/// levels, which are not needed: the finest one is refined. Throws Error for faulty numbers.
+bool hides(const XmlElement& animation, const RestingProperties& properties) {
     const std::string_view kind = animation.text_of("type");
     if (kind == "light" || kind == "select") { return kind == "light" || !holds_at_rest(animation, properties); }
-    try {
-        constexpr double clear = 0.99;
-        if (kind == "blend") {
-            return holds_at_rest(animation, properties) &&
-                   value_at_rest(animation, "", properties).value_or(0.0) >= clear;
-        }
-        constexpr double eye_outside_m = 10.0;
-        return animation.find("min-property") != nullptr || number_in(animation, "min-m") > eye_outside_m;
-    } catch (const Error& fault) {
-        notes.push_back(fmt::format("{}; what it names is always shown", fault.what()));
-        return false;
+    constexpr double clear = 0.99;
+    if (kind == "blend") {
+        return holds_at_rest(animation, properties) && value_at_rest(animation, "", properties).value_or(0.0) >= clear;
     }
+    constexpr double eye_outside_m = 10.0;
+    return animation.find("min-property") != nullptr || number_in(animation, "min-m") > eye_outside_m;
 }
 
 /// How landing gear shows and hides what a `select` animation names; nothing for one that it does not decide, and for
-/// other animations.
+/// other animations. Throws Error for faulty numbers.
 std::optional<FlightGearRestPlacement> shown_by_gear(const XmlElement& animation, const RestingProperties& properties) {
     if (animation.text_of("type") != "select") { return std::nullopt; }
     FlightGearRestPlacement shown;
@@ -716,6 +720,51 @@ std::optional<FlightGearRestPlacement> shown_by_gear(const XmlElement& animation
     return shown;
 }
 
+/// The objects that an animation names and the members of groups among them; an empty name: all of the model.
+ObjectNames all_objects_of(const XmlElement& animation, const Groups& groups) {
+    ObjectNames objects = objects_of(animation);
+    if (objects.empty()) { objects.insert(""); }
+    expand(objects, groups);
+    return objects;
+}
+
+bool only_shows(std::string_view kind) {
+    return kind == "range" || kind == "select" || kind == "light" || kind == "blend";
+}
+
+/// Throws Error for faulty numbers.
+void add_animation(const XmlElement& animation, const RestingProperties& properties, const Groups& groups,
+    FlightGearAnimations& animated) {
+    const std::string kind(animation.text_of("type"));
+    if (auto shown = shown_by_gear(animation, properties)) {
+        expand(shown->objects, groups);
+        animated.moves.push_back(std::move(*shown));
+    } else if (only_shows(kind)) {
+        if (hides(animation, properties)) {
+            animated.hidden.merge(all_objects_of(animation, groups));
+        } else if (kind == "blend") {
+            ++animated.at_rest[kind];
+        }
+    } else if (auto turn = rotation_in_flight(animation)) {
+        expand(turn->objects, groups);
+        add_turn(std::move(*turn), animated.turns);
+    } else if (const std::string picture(animation.text_of("texture"));
+               kind == "material" && !picture.empty() && holds_at_rest(animation, properties)) {
+        for (const std::string& object : all_objects_of(animation, groups)) {
+            animated.pictures.insert_or_assign(object, picture);
+        }
+    } else {
+        if (kind == "translate" || kind == "rotate") { add_shadows(animation, animated.hidden); }
+        std::vector<FlightGearRestPlacement> moves = placements_at_rest(animation, properties);
+        const bool is_moved = std::ranges::any_of(moves, [](const auto& one) { return one.move.has_value(); });
+        if (!is_moved) { ++animated.at_rest[kind]; }
+        for (FlightGearRestPlacement& move : moves) {
+            expand(move.objects, groups);
+            animated.moves.push_back(std::move(move));
+        }
+    }
+}
+
 } // namespace
 
 FlightGearAnimations flightgear_animations(const XmlElement& root, const RestingProperties& properties) {
@@ -724,36 +773,13 @@ FlightGearAnimations flightgear_animations(const XmlElement& root, const Resting
     for (const XmlElement& child : root.children) {
         const std::string kind(child.text_of("type"));
         if (child.name != "animation" || kind.empty()) { continue; }
-        if (auto shown = shown_by_gear(child, properties)) {
-            expand(shown->objects, groups);
-            animated.moves.push_back(std::move(*shown));
-        } else if (kind == "range" || kind == "select" || kind == "light" || kind == "blend") {
-            if (hides(child, properties, animated.notes)) {
-                ObjectNames objects = objects_of(child);
-                if (objects.empty()) { objects.insert(""); }
-                animated.hidden.merge(objects);
-            } else if (kind == "blend") {
-                ++animated.at_rest[kind];
-            }
-        } else if (auto turn = unless_faulty([&] { return rotation_in_flight(child); }, animated.notes)) {
-            expand(turn->objects, groups);
-            add_turn(std::move(*turn), animated.turns);
-        } else if (const std::string picture(child.text_of("texture"));
-                   kind == "material" && !picture.empty() && holds_at_rest(child, properties)) {
-            ObjectNames objects = objects_of(child);
-            if (objects.empty()) { objects.insert(""); }
-            expand(objects, groups);
-            for (const std::string& object : objects) { animated.pictures.insert_or_assign(object, picture); }
-        } else {
-            if (kind == "translate" || kind == "rotate") { add_shadows(child, animated.hidden); }
-            std::vector<FlightGearRestPlacement> moves =
-                unless_faulty([&] { return placements_at_rest(child, properties); }, animated.notes);
-            const bool is_moved = std::ranges::any_of(moves, [](const auto& one) { return one.move.has_value(); });
-            if (!is_moved) { ++animated.at_rest[kind]; }
-            for (FlightGearRestPlacement& move : moves) {
-                expand(move.objects, groups);
-                animated.moves.push_back(std::move(move));
-            }
+        try {
+            add_animation(child, properties, groups, animated);
+        } catch (const Error& fault) {
+            const bool shows = only_shows(kind);
+            animated.notes.push_back(fmt::format(
+                "{}; {}", fault.what(), shows ? "what it names is always shown" : "what it changes is left at rest"));
+            if (!shows || kind == "blend") { ++animated.at_rest[kind]; }
         }
     }
     expand(animated.hidden, groups);

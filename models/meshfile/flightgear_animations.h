@@ -43,11 +43,12 @@ private:
     ControlPositions positions_{};
 };
 
-/// Whether the <condition> of a FlightGear animation holds at rest. True without a condition.
+/// Whether the <condition> of a FlightGear animation or sub-model holds at rest. True without a condition. Throws Error
+/// for a faulty <expression> in it, as expression_value does.
 bool holds_at_rest(const XmlElement& animation, const RestingProperties& properties);
 
-/// The value of the function that an <expression> holds, of numbers and properties; nothing where it has one that is
-/// not known. Throws Error for faulty numbers.
+/// The value of the function that an <expression> holds, of numbers and properties; nothing where it is not finite.
+/// Throws Error for faulty numbers, functions that are not known and another number of terms than a function takes.
 std::optional<double> expression_value(const XmlElement& expression, const RestingProperties& properties);
 
 /// An animation by which something turns in flight; axes of the FlightGear model.
@@ -73,15 +74,17 @@ PartMoves placed_moves(PartMoves moves, const AffineTransform& placement);
 /// What the animations of one FlightGear model do to the objects of its mesh and to its sub-models, by their names;
 /// axes of that model.
 struct FlightGearAnimations {
-    /// What a range shows only to eyes farther than some metres away, what a select hides at rest, what stands for a
-    /// light's reach, and what is moved along the ground as a shadow. An empty name stands for all of the model.
+    /// What a range shows only to eyes farther than some metres away, what a select hides at rest, what a blend makes
+    /// clear at rest (0.99 and more), what stands for a light's reach, and what is moved along the ground as a shadow.
+    /// An empty name stands for all of the model.
     ObjectNames hidden;
     std::vector<FlightGearRotation> turns;      ///< of objects about the same axis only one
     std::vector<FlightGearRestPlacement> moves; ///< in the file's order: the first one moves what others moved
     std::map<std::string, int> at_rest;         ///< how many others there are, by their types
     /// Pictures that a `material` animation puts on objects while its properties are not set; "" = on all others.
     std::map<std::string, std::string> pictures;
-    std::vector<std::string> notes; ///< faults in them; often none
+    /// Of each faulty animation, which is left out: its first fault, with file and line; often none.
+    std::vector<std::string> notes;
 
     /// Adds what the animations of an outer model do to objects of these names: in FlightGear they hold for all models
     /// within it. `placement`: of this model in the outer one. The turns of both are in axes of the whole.

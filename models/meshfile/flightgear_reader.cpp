@@ -8,7 +8,6 @@
 #include "models/meshfile/mesh_formats.h"
 #include "models/meshfile/mesh_join.h"
 #include "sim/base/error.h"
-#include "sim/base/output_file.h"
 #include "sim/base/text_file.h"
 #include "sim/base/units.h"
 
@@ -76,7 +75,6 @@ XmlElement flightgear_tree(const fs::path& file) {
 constexpr int max_model_depth = 8;
 constexpr std::size_t max_models = 500;
 constexpr std::size_t max_notes = 20;
-constexpr std::size_t largest_mesh_bytes = std::size_t{1} << 30U;
 
 /// Columns: where x, y and z of AC3D files point in a model.
 const glm::dmat3 from_ac3d(glm::dvec3(1, 0, 0), glm::dvec3(0, 0, 1), glm::dvec3(0, -1, 0));
@@ -208,7 +206,7 @@ private:
             const std::string path(child.text_of("path"));
             const std::string name(child.text_of("name"));
             const bool is_hidden = !name.empty() && animated.hidden.contains(name);
-            if (child.name == "model" && !path.empty() && !is_hidden && holds_at_rest(child, properties_)) {
+            if (child.name == "model" && !path.empty() && !is_hidden && is_there(child)) {
                 Inherited moved = own;
                 moved.outer.push_back({&own_animations, own.placement});
                 if (!name.empty()) {
@@ -222,20 +220,27 @@ private:
         }
     }
 
+    /// Whether a sub-model is there at rest; one with a faulty condition is.
+    bool is_there(const XmlElement& model) {
+        try {
+            return holds_at_rest(model, properties_);
+        } catch (const Error& fault) {
+            note_once(fmt::format("{}; this sub-model is always shown", fault.what()));
+            return true;
+        }
+    }
+
     static void add_moves(PartMoves inner, PartMoves& moves) {
         moves.insert(moves.end(), std::make_move_iterator(inner.begin()), std::make_move_iterator(inner.end()));
     }
 
-    /// The names of the objects in an AC3D file; none of other files, whose objects are not told apart.
+    /// The names of the objects in an AC3D file; none of other files, whose objects are not told apart, and of faulty
+    /// ones, whose fault add_mesh() tells.
     static ObjectNames object_names_in(const fs::path& file) {
-        ObjectNames names;
-        if (extension_of(file) != ".ac" || !is_file(file)) { return names; }
-        const std::string text = read_file(file, largest_mesh_bytes);
-        for (std::size_t at = 0; (at = text.find("name \"", at)) != text.npos;) {
-            at += std::string_view("name \"").size();
-            names.insert(text.substr(at, std::min(text.find('"', at), text.size()) - at));
-        }
-        return names;
+        if (extension_of(file) != ".ac") { return {}; }
+        try {
+            return ac3d_object_names(file);
+        } catch (const Error&) { return {}; }
     }
 
     /// Adds what the models that hold one do to what has these names in it.

@@ -8,6 +8,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <set>
 #include <span>
 #include <string>
 #include <string_view>
@@ -28,6 +29,10 @@ MeshBuilder read_ac3d(const std::filesystem::path& path, const ReadOptions& opti
 MeshBuilder read_srf(const std::filesystem::path& path, const ReadOptions& options);
 MeshBuilder read_dnm(const std::filesystem::path& path, const ReadOptions& options);
 MeshBuilder read_vrml(const std::filesystem::path& path, const ReadOptions& options);
+
+/// The names of the objects in an AC3D file, whose shapes are not read: before read_ac3d, whose options name objects.
+/// Throws Error.
+std::set<std::string> ac3d_object_names(const std::filesystem::path& path);
 
 /// A variable of a simulator that follows a control: its value is `scale` times the control's position.
 struct ControlledVariable {

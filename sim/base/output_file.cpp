@@ -96,21 +96,32 @@ int create_beside(const std::filesystem::path& path, std::filesystem::path& targ
 
 } // namespace
 
-void write_file(const std::filesystem::path& path, std::string_view bytes) {
+WholeFile::WholeFile(std::filesystem::path path) : path_(std::move(path)) {
     // A device or a pipe cannot be renamed over; it is written directly.
-    const bool special = path_exists(path) && !is_file(path);
-    std::filesystem::path target;
-    const int descriptor = special ? create(path) : create_beside(path, target);
-    if (descriptor < 0) { cannot_write(path); }
-    const bool written = write_all(descriptor, bytes);
-    const int write_errno = errno;
-    const bool closed = ::close(descriptor) == 0;
-    if (!written) { errno = write_errno; }
-    if (written && closed && (special || ::rename(target.c_str(), path.c_str()) == 0)) { return; }
-    const int kept_errno = errno;
-    if (!special) { ::unlink(target.c_str()); }
-    errno = kept_errno;
-    cannot_write(path);
+    const bool special = path_exists(path_) && !is_file(path_);
+    descriptor_ = special ? create(path_) : create_beside(path_, temporary_);
+    if (descriptor_ < 0) { cannot_write(path_); }
+}
+
+WholeFile::~WholeFile() {
+    if (descriptor_ >= 0) { ::close(descriptor_); }
+    if (!temporary_.empty()) { ::unlink(temporary_.c_str()); }
+}
+
+void WholeFile::append(std::string_view bytes) {
+    if (!write_all(descriptor_, bytes)) { cannot_write(path_); }
+}
+
+void WholeFile::finish() {
+    const bool closed = ::close(std::exchange(descriptor_, -1)) == 0;
+    if (!closed || (!temporary_.empty() && ::rename(temporary_.c_str(), path_.c_str()) != 0)) { cannot_write(path_); }
+    temporary_.clear();
+}
+
+void write_file(const std::filesystem::path& path, std::string_view bytes) {
+    WholeFile file(path);
+    file.append(bytes);
+    file.finish();
 }
 
 bool is_unfinished(const std::filesystem::path& path) {

@@ -28,7 +28,31 @@ std::filesystem::path absolute_path(const std::filesystem::path& path);
 /// permission, no such folder, disk full) and leaves no temporary behind.
 void write_file(const std::filesystem::path& path, std::string_view bytes);
 
-/// True for the name of a temporary file of write_file, which stays if the program is killed.
+/// A file that is written piece by piece, as by write_file: whole or not at all. Errors name `path`.
+class WholeFile {
+public:
+    /// Makes the temporary file; a device or a pipe is opened itself. Throws Error.
+    explicit WholeFile(std::filesystem::path path);
+    /// Without finish() `path` stays as it was.
+    ~WholeFile();
+    WholeFile(WholeFile&&) = delete;
+    WholeFile& operator=(WholeFile&&) = delete;
+    WholeFile(const WholeFile&) = delete;
+    WholeFile& operator=(const WholeFile&) = delete;
+
+    /// Throws Error (disk full).
+    void append(std::string_view bytes);
+
+    /// Renames the temporary over `path`; nothing more may be appended then. Throws Error.
+    void finish();
+
+private:
+    std::filesystem::path path_;
+    std::filesystem::path temporary_; ///< empty for a device or a pipe, and after finish()
+    int descriptor_ = -1;
+};
+
+/// True for the name of a temporary file of write_file or WholeFile, which stays if the program is killed.
 bool is_unfinished(const std::filesystem::path& path);
 
 /// For use before long work: throws Error if write_file would fail because the folder is missing or not writable, or

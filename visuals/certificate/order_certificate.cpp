@@ -27,7 +27,6 @@
 #include <span>
 #include <string>
 #include <string_view>
-#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -88,13 +87,13 @@ public:
         waiting_[part] += text;
         waiting_bytes_ += text.size();
         constexpr std::size_t most_bytes = std::size_t{4} << 20U;
-        if (waiting_bytes_ > most_bytes) { put_away(); }
+        if (waiting_bytes_ > most_bytes) { move_to_file(); }
     }
 
     /// Gives all texts of a part in the order in which they came.
     void give(int part, const TextSink& sink) {
         std::string text;
-        for (const Piece& piece : put_away_[part]) {
+        for (const Piece& piece : pieces_[part]) {
             text.resize(piece.bytes);
             const bool is_read = std::fseek(file_.get(), piece.offset, SEEK_SET) == 0 &&
                                  std::fread(text.data(), 1, text.size(), file_.get()) == text.size();
@@ -118,12 +117,12 @@ private:
         throw Error(fmt::format("a temporary file cannot be written or read: {}", std::strerror(errno)));
     }
 
-    void put_away() {
+    void move_to_file() {
         if (file_ == nullptr) { file_.reset(std::tmpfile()); }
         if (file_ == nullptr) { refuse_file(); }
         for (const auto& [part, text] : waiting_) {
             if (std::fwrite(text.data(), 1, text.size(), file_.get()) != text.size()) { refuse_file(); }
-            put_away_[part].push_back({offset_, text.size()});
+            pieces_[part].push_back({offset_, text.size()});
             offset_ += static_cast<long>(text.size());
         }
         waiting_.clear();
@@ -134,7 +133,7 @@ private:
     std::size_t waiting_bytes_ = 0;
     std::unique_ptr<std::FILE, Close> file_;
     long offset_ = 0;
-    std::map<int, std::vector<Piece>> put_away_;
+    std::map<int, std::vector<Piece>> pieces_;
 };
 
 /// Thrown where a certificate takes more bytes than it may.
@@ -382,41 +381,6 @@ CertificateFigures give_certificate(const CertifiedOrder& proved, double toleran
     return {text.bytes(), text.unproved()};
 }
 
-/// A file beside another one that takes its name when it is whole, and else goes.
-class ReplacingFile {
-public:
-    explicit ReplacingFile(std::filesystem::path file)
-        : file_(std::move(file)), part_(file_.string() + ".part"), text_(std::in_place, part_) {}
-
-    ~ReplacingFile() {
-        text_.reset();
-        std::error_code ignored;
-        std::filesystem::remove(part_, ignored);
-    }
-
-    ReplacingFile(const ReplacingFile&) = delete;
-    ReplacingFile& operator=(const ReplacingFile&) = delete;
-    ReplacingFile(ReplacingFile&&) = delete;
-    ReplacingFile& operator=(ReplacingFile&&) = delete;
-
-    void write(std::string_view text) {
-        text_->append(text);
-        text_->flush();
-    }
-
-    void replace() {
-        text_.reset();
-        std::error_code fault;
-        std::filesystem::rename(part_, file_, fault);
-        if (fault) { throw_error_in(file_, fmt::format("cannot be written: {}", fault.message())); }
-    }
-
-private:
-    std::filesystem::path file_;
-    std::filesystem::path part_;
-    std::optional<AppendedFile> text_;
-};
-
 constexpr std::uint64_t any_length = std::numeric_limits<std::uint64_t>::max();
 
 } // namespace
@@ -444,11 +408,11 @@ WrittenCertificate write_order_certificate(const std::filesystem::path& file, co
     std::optional<WrittenCertificate> best;
     for (const double tolerance : separation::proof_tolerances_sizes) {
         try {
-            ReplacingFile text(file);
+            WholeFile text(file);
             const CertificateFigures made = give_certificate(
-                proved, tolerance, max_bytes, [&](std::string_view piece) { text.write(piece); }, progress);
+                proved, tolerance, max_bytes, [&](std::string_view piece) { text.append(piece); }, progress);
             if (best && made.unproved >= best->unproved) { continue; }
-            text.replace();
+            text.finish();
             best = {made.bytes, made.unproved, false};
         } catch (const TooLong&) {
             if (!best) { return {max_bytes, 0, true}; }

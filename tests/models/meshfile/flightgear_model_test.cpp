@@ -70,6 +70,48 @@ TEST_CASE("a faulty number in a range costs the range alone") {
         model.body.notes.front(), Catch::Contains("expected a number, got '10,5'; what it names is always shown"));
 }
 
+TEST_CASE("a fault in an expression costs its animation alone, be it in a condition or not") {
+    file_with("square.ac", ac3d_square("0x0", "flap"));
+    const auto note_on = [](const std::string& animation) {
+        const TriangleMesh mesh = read_mesh(file_with("faulty.xml",
+            "<PropertyList><path>square.ac</path><animation>\n<object-name>flap</object-name>" + animation +
+                "</animation><animation><type>translate</type><object-name>flap</object-name><offset-m>2</offset-m>"
+                "<axis><x>1</x></axis></animation></PropertyList>"));
+        REQUIRE(mesh.vertices_m.size() == 4);
+        CHECK(mesh.vertices_m[2].x == 3.0); // the other animation's shift alone
+        return mesh.notes.empty() ? std::string() : mesh.notes.front();
+    };
+    const auto of_shift = [&](const std::string& expression) {
+        return note_on("<type>translate</type><axis><x>1</x></axis><expression>\n" + expression + "</expression>");
+    };
+    const auto under_condition = [&](const std::string& type, const std::string& expression) {
+        return note_on("<type>" + type +
+                       "</type><texture>a.png</texture><condition><equals><value>1</value><expression>\n" + expression +
+                       "</expression></equals></condition>");
+    };
+    const std::string clip = "<clip><clipMin>abc</clipMin><value>7</value></clip>";
+    const std::string shown = "faulty.xml:3: expected a number, got 'abc'; what it names is always shown";
+    CHECK_THAT(under_condition("select", clip), Catch::EndsWith(shown));
+    CHECK_THAT(under_condition("blend", clip), Catch::EndsWith(shown));
+    const std::string at_rest = "faulty.xml:3: expected a number, got 'abc'; what it changes is left at rest";
+    CHECK_THAT(under_condition("material", clip), Catch::EndsWith(at_rest));
+    CHECK_THAT(under_condition("rotate", clip), Catch::EndsWith(at_rest));
+    CHECK_THAT(of_shift(clip), Catch::EndsWith(at_rest));
+    CHECK_THAT(of_shift("<value>abc</value>"), Catch::EndsWith(at_rest));
+    CHECK_THAT(of_shift("<squash><value>1</value></squash>"),
+        Catch::EndsWith("faulty.xml:3: expected a known function, got 'squash'; what it changes is left at rest"));
+    CHECK_THAT(of_shift("<pow><value>1</value></pow>"), Catch::Contains(":3: expected 2 terms in pow, got 1;"));
+    CHECK_THAT(of_shift("<clip/>"), Catch::Contains(":3: expected 1 or more terms in clip, got 0;"));
+    CHECK_THAT(
+        of_shift("<value>1</value><value>2</value>"), Catch::Contains(":2: expected 1 term in an expression, got 2;"));
+    CHECK_THAT(
+        read_mesh(file_with("holder.xml", "<PropertyList><path>square.ac</path><model><path>square.ac</path>"
+                                          "<condition><equals><value>1</value>\n<expression>" +
+                                              clip + "</expression></equals></condition></model></PropertyList>"))
+            .notes.front(),
+        Catch::EndsWith("holder.xml:2: expected a number, got 'abc'; this sub-model is always shown"));
+}
+
 TEST_CASE("a FlightGear model includes files and names groups of objects") {
     file_with("square.ac", ac3d_square("0x0", "blade"));
     file_with("other.ac", ac3d_square("0x0", "wing"));
@@ -279,7 +321,7 @@ TEST_CASE("propellers and rotors of a FlightGear model turn, wheels stay with th
     CHECK(model.parts[1].about.direction == glm::dvec3(0.0, 0.0, 1.0));
     CHECK_THAT(model.body.notes.back(), Catch::Contains("left at rest: 2 rotate, 2 spin"));
     CHECK_THAT(
-        model.body.notes.front(), Catch::Contains("expected a number, got '1,5'; what it moves is left at rest"));
+        model.body.notes.front(), Catch::Contains("expected a number, got '1,5'; what it changes is left at rest"));
     CHECK(read_mesh(file).triangles.size() == 6); // as one mesh all of it is there
     CHECK(read_rotating_model(file.parent_path() / "parts.ac", {}).parts.empty());
 }
@@ -436,6 +478,10 @@ TEST_CASE("animations of a FlightGear model hold for the objects of all models w
                            "<property>on</property></condition></animation>",
                         ""))
               .triangles.size() == 2);
+    std::string unquoted = ac3d_square("0x0", "blade");
+    unquoted.replace(unquoted.find("\"blade\""), 7, "blade");
+    file_with("blade.ac", unquoted); // as AC3D has it, too
+    CHECK(read_mesh(holder(shift, turned_offsets)).vertices_m == moved.vertices_m);
 }
 
 TEST_CASE("expressions of FlightGear's animations are worth what their properties are at rest, and follow controls") {

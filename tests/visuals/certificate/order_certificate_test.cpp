@@ -18,7 +18,9 @@
 
 #include <cstddef>
 #include <cstdio>
+#include <filesystem>
 #include <fmt/format.h>
+#include <iterator>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -202,14 +204,22 @@ TEST_CASE("a certificate in a file has the same text, and one that is too long i
     const visuals::certificate::CertifiedModel bound_to{"model", "0123456789abcdef"};
     const visuals::certificate::CertifiedOrder proved{ordered.model, ordered.order, axes, bound_to};
     const std::string text = visuals::certificate::order_certificate(proved).text;
-    const auto file = tests::scratch_folder() / "f15.proof";
+    const auto folder = tests::scratch_folder() / "proofs";
+    make_folder(folder);
+    const auto file = folder / "f15.proof";
+    write_file(file.string() + ".part", "another file");
     CHECK(visuals::certificate::write_order_certificate(file, proved, text.size() - 1).is_too_long);
     CHECK(!path_exists(file));
     const auto written = visuals::certificate::write_order_certificate(file, proved, text.size());
     CHECK(written.bytes == text.size());
     CHECK(written.unproved == 0);
     CHECK(read_text_file(file) == text);
-    CHECK(!path_exists(file.string() + ".part"));
+    CHECK(read_text_file(file.string() + ".part") == "another file");
+    const auto left = std::distance(std::filesystem::directory_iterator(folder), {});
+    CHECK(left == 2); // no temporary file
+    const auto nowhere = folder / "none" / "f15.proof";
+    CHECK_THROWS_WITH(visuals::certificate::write_order_certificate(nowhere, proved, text.size()),
+        nowhere.string() + ": cannot be written: No such file or directory");
 }
 
 TEST_CASE("a certificate that ends anywhere before its end is refused with its line") {
