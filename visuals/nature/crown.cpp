@@ -205,9 +205,9 @@ Crown make_crown(PlantKind kind, std::uint32_t variant) {
     if (kind == PlantKind::Conifer) {
         Tiers tiers;
         for (glm::vec2& turn : tiers.turns) { turn = glm::normalize(glm::vec2(random.next_direction())); }
-        tiers.raggedness = 0.08F + 0.08F * random.next();
+        tiers.raggedness = 0.10F + 0.10F * random.next();
         for (std::size_t i = 0; i < surface.size(); ++i) {
-            const float detail = i < base_vertices ? 0.0F : i < Icosphere::vertex_counts[1] ? 0.5F : 1.0F;
+            const float detail = i < base_vertices ? 0.0F : i < Icosphere::vertex_counts[1] ? 0.75F : 1.0F;
             surface[i] = tiers.surface_of(icosphere().directions[i], detail);
         }
         crown.centre = Tiers::centre;

@@ -36,10 +36,10 @@ struct DetailBudget {
     double height_above_ground_m = 0.0; ///< the eye over the ground
 };
 
-/// Sets the members of `view` that limit detail: min_edge_rad, range_ratio, focal_px, and the two maxima of triangles. Edge
-/// length and range are chosen such that the maxima are hardly ever reached, because detail that a maximum cuts off
-/// would appear suddenly. Without a limit of triangles the result does not depend on the width of the picture: pictures
-/// from one eye with the same `focal_px` show the same ground where they overlap.
+/// Sets the members of `view` that limit detail: min_edge_rad, range_ratio, focal_px, and the two maxima of triangles.
+/// Edge length and range are chosen such that the maxima are hardly ever reached, because detail that a maximum cuts
+/// off would appear suddenly. Without a limit of triangles the result does not depend on the width of the picture:
+/// pictures from one eye with the same `focal_px` show the same ground where they overlap.
 void apply_detail_budget(const DetailBudget& budget, const NearDetailOptions& detail, NearDetailView& view);
 
 /// Own colour of a place of the world with its alpha, packed; where it lies from the eye.

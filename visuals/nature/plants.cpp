@@ -23,8 +23,8 @@ constexpr std::array<glm::vec2, Icosphere::levels> level_px{
 constexpr float full_contrast_px = 80.0F;
 constexpr float min_contrast = 0.35F;
 /// Smaller plants take on their ground's colour, of which they have the share `max_ground_share` in the end.
-constexpr glm::vec2 ground_colour_px(38.0F, 8.0F);
-constexpr float max_ground_share = 0.65F;
+constexpr glm::vec2 ground_colour_px(28.0F, 6.0F);
+constexpr float max_ground_share = 0.5F;
 
 constexpr float lowest_outline = 0.2F;
 constexpr float trunk_radius = 0.065F; ///< of the plant's
