@@ -271,7 +271,7 @@ inline constexpr std::tuple surface{
             "cache of painting orders and prepared meshes: a folder, user (octant/orders in the user cache) or none"},
         {.group = Surface, .change = Recording, .role = SettingRole::Ignored}),
     setting<&RunSettings::surface, &SurfaceSettings::shadows>(
-        {"shadows", "", "shadows of aircraft on the ground"}, {.group = Surface, .change = Picture}),
+        {"shadows", "", "shadows of aircraft, trees and houses on the ground"}, {.group = Surface, .change = Picture}),
     setting<&RunSettings::surface, &SurfaceSettings::effects>(
         {"effects", "", "rotor discs, exhaust, afterburners and wingtip vapour"},
         {.group = Surface, .change = Picture}),

@@ -13,7 +13,7 @@ namespace octant::visuals::nature {
 
 namespace {
 
-// Heights of plants in the picture, pixels.
+// Heights of plants in the picture, pixels. Levels and the outline are those of a fineness of 1.
 constexpr float outline_px = 34.0F;    ///< smaller ones are a polygon that faces the eye
 constexpr float bare_trunk_px = 36.0F; ///< crowns of this size reach down to the ground ...
 constexpr float full_trunk_px = 90.0F; ///< ... and have the whole trunk below them from this one on
@@ -111,7 +111,7 @@ struct PlantMesher::Placement {
 
 void PlantMesher::add(const Plant& plant, StandingMesh& to) {
     const std::uint32_t bits = plant.random_bits;
-    if (plant.height_px < outline_px * (0.85F + 0.3F * share_of(bits, 3))) {
+    if (plant.fineness * plant.height_px < outline_px * (0.85F + 0.3F * share_of(bits, 3))) {
         add_outline(plant, to);
         return;
     }
@@ -142,11 +142,11 @@ void PlantMesher::add_crown(const Plant& plant, const Placement& placement, Stan
     const Crown& crown = species.crowns[variant];
     const CrownLight& light = species.light[variant][bits >> 27U & (turns - 1)];
     std::size_t level = Icosphere::levels - 1;
-    while (level > 0 && plant.height_px <= level_px[level].x) { --level; }
+    const float fine_px = plant.fineness * plant.height_px;
+    while (level > 0 && fine_px <= level_px[level].x) { --level; }
     const Icosphere& sphere = icosphere();
     const float come =
-        level == 0 ? 1.0F
-                   : std::min((plant.height_px - level_px[level].x) / (level_px[level].y - level_px[level].x), 1.0F);
+        level == 0 ? 1.0F : std::min((fine_px - level_px[level].x) / (level_px[level].y - level_px[level].x), 1.0F);
     const std::size_t old_count = level == 0 ? Icosphere::vertex_counts[0] : Icosphere::vertex_counts[level - 1];
     const std::size_t count = Icosphere::vertex_counts[level];
     const auto moved = [&](std::size_t i, const auto& value_of) {

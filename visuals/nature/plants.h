@@ -20,6 +20,7 @@ struct Plant {
     float radius_m = 1.0F; ///< of the upright cylinder that holds it
     float height_m = 1.0F;
     float height_px = 1.0F; ///< in the picture
+    float fineness = 1.0F;  ///< plants so many times as high in the picture have as many triangles at 1
     float sun = 1.0F;       ///< the share of sunlight that the relief lets through
     std::uint32_t random_bits = 0;
 };

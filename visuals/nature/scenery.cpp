@@ -31,6 +31,9 @@ constexpr double max_reach_cells = 30.0;
 constexpr double min_cell_m = 15.0; ///< denser ground bears something in some cells only
 constexpr float min_radius_m = 1.2F;
 constexpr float max_height_m = 17.0F;           ///< of all things
+constexpr float max_fineness = 1.9F;            ///< of plants where few trees are near
+constexpr float max_crowding = 3.0F;            ///< of trees in view, over those all around
+constexpr double crowd_reach_m = 250.0;         ///< from the eye
 constexpr float house_circle_m = 4.0F;          ///< no house where less fits
 constexpr float first_growth_ratio = 0.28F;     ///< of the reach: all things have grown by then
 constexpr glm::vec2 shadow_px(45.0F, 80.0F);    ///< things look so high where their shadows begin and are whole
@@ -89,6 +92,9 @@ public:
         view_ = view;
         view_reach_m_ = reach_m_ * static_cast<double>(view.range_ratio);
         added_ = 0;
+        fineness_ = reach_m_ > 0.0 && view.max_scenery_triangles > 0
+                        ? 1.0F / std::clamp(std::sqrt(max_crowding * share_of_trees()), 1.0F / max_fineness, 1.0F)
+                        : 1.0F;
         shadow_reach_m_ = 0.0F;
         if (ground_.has_shadows && view.order == terrain::PaintOrder::BackToFront && shadows_.are_cast()) {
             shadow_reach_m_ = std::min(max_height_m * view.focal_px / shadow_px.x, static_cast<float>(view_reach_m_));
@@ -144,7 +150,7 @@ public:
                     ground_.day, mesh);
             } else {
                 plants_.add({species_of(one.item).kind, one.anchor, one.radius_m, one.height_m, one.height_px,
-                                sun_of(one), one.item.random_bits},
+                                fineness_, sun_of(one), one.item.random_bits},
                     mesh);
             }
             to.runs.push_back({first_vertex, static_cast<std::uint32_t>(to.vertices.size()),
@@ -234,6 +240,30 @@ private:
                                 scrambled(random_bits)}};
         }
         return known.item;
+    }
+
+    /// The share of the places around the eye at which trees stand, 0..1. It changes steadily with the eye.
+    float share_of_trees() {
+        const glm::dvec2 eye = (glm::dvec2(view_.eye_m) - ground_.first_m) / ground_.spacing_m;
+        const double reach = crowd_reach_m / ground_.spacing_m;
+        const auto first_of = [&](double from) {
+            return static_cast<int>(std::ceil(std::max(from, 0.0) / stride_)) * stride_;
+        };
+        const int last_row = std::min(static_cast<int>(eye.y + reach), ground_.samples.y - 2);
+        const int last_column = std::min(static_cast<int>(eye.x + reach), ground_.samples.x - 2);
+        float trees = 0.0F;
+        float all = 1e-3F;
+        for (int row = first_of(eye.y - reach); row <= last_row; row += stride_) {
+            for (int column = first_of(eye.x - reach); column <= last_column; column += stride_) {
+                const glm::vec2 off((glm::dvec2(column, row) + 0.5 - eye) / reach);
+                const float weight = std::max(1.0F - glm::dot(off, off), 0.0F);
+                if (weight == 0.0F) { continue; }
+                const SceneryKind kind = item_at({column, row, (column ^ row) & 3}, 0).kind;
+                all += weight;
+                trees += kind == SceneryKind::Broadleaf || kind == SceneryKind::Conifer ? weight : 0.0F;
+            }
+        }
+        return trees / all;
     }
 
     /// The quarters of a cell follow one another.
@@ -398,6 +428,7 @@ private:
     float shadow_reach_m_ = 0.0F; ///< in this view
     NearDetailView view_;
     double view_reach_m_ = 0.0;
+    float fineness_ = 1.0F; ///< of plants in this view
     std::size_t added_ = 0; ///< triangles in this frame
     std::vector<CachedItem> item_cache_;
     std::vector<PlacedItem> placed_items_; ///< on one triangle

@@ -84,7 +84,7 @@ struct SurfaceSettings {
     double order_seconds = 4.0;
     /// The cache of orders: a folder, "user" for the user's own cache, or "none". Does not change pictures.
     std::string order_cache = "user";
-    /// Whether aircraft cast shadows on the ground.
+    /// Whether aircraft, trees and houses cast shadows on the ground.
     bool shadows = true;
     /// Whether rotor discs, exhaust, afterburners and vapour are shown.
     bool effects = false;
