@@ -19,7 +19,7 @@ constexpr float bare_trunk_px = 36.0F; ///< crowns of this size reach down to th
 constexpr float full_trunk_px = 90.0F; ///< ... and have the whole trunk below them from this one on
 /// Where a level of the crown begins, and where its vertices have wholly come.
 constexpr std::array<glm::vec2, Icosphere::levels> level_px{
-    glm::vec2(0.0F), glm::vec2(64.0F, 100.0F), glm::vec2(180.0F, 300.0F)};
+    glm::vec2(0.0F), glm::vec2(70.0F, 110.0F), glm::vec2(200.0F, 330.0F)};
 constexpr float full_contrast_px = 80.0F;
 constexpr float min_contrast = 0.35F;
 /// Smaller plants take on their ground's colour, of which they have the share `max_ground_share` in the end.
