@@ -126,11 +126,11 @@ private:
         properties_.take(root, "");
         for (const XmlElement& sim : root.children) {
             const XmlElement* model = sim.name == "sim" ? sim.find("model") : nullptr;
-            const std::string name(model == nullptr ? "" : model->text_of("path"));
-            if (name.empty()) { continue; }
-            fs::path file = flightgear_file(path_, name);
+            const XmlElement* named = model == nullptr ? nullptr : model->find("path");
+            if (named == nullptr || named->text.empty()) { continue; }
+            fs::path file = flightgear_file(path_, named->text);
             if (file.empty()) {
-                throw_error_in(path_, "expected a file of its sim/model/path, got none called " + in_quotes(name));
+                named->refuse("a file of its sim/model/path", "none called " + in_quotes(named->text));
             }
             return file;
         }
@@ -188,7 +188,7 @@ private:
         options_.pictures_in = flightgear_pictures(file, std::string(root.text_of("texture-path")));
         if (!mesh.empty()) {
             if (depth == 0 && flightgear_file(file, mesh).empty()) {
-                throw_error_in(file, "expected a file of its path, got none called " + in_quotes(mesh));
+                root.find("path")->refuse("a file of its path", "none called " + in_quotes(mesh));
             }
             for (const auto& [object, picture] : animated.pictures) {
                 const fs::path found = picture_file(file, picture, file.parent_path());

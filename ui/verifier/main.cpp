@@ -154,8 +154,8 @@ int run(const std::vector<std::string>& words) {
         std::fputs(arguments.help ? help : "octant-verify " OCTANT_VERSION "\n", stdout);
         return 0;
     }
+    verify::CertificateReader reader(arguments.file); // first: whoever swaps FILE and MODEL is told of FILE
     if (!arguments.model.empty()) { compare_model(arguments); }
-    verify::CertificateReader reader(arguments.file);
     const verify::Certificate& read = reader.certificate();
     const Contents contents{read.model, read.model_hash, read.polygons.size(), read.nodes.size(), read.lists.size()};
     const verify::VerificationResult verification = verify::verify(std::move(reader));

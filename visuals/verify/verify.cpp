@@ -29,9 +29,7 @@ namespace {
 /// The polygons below each node of a tree.
 class TreeContents {
 public:
-    explicit
-
-        TreeContents(const Certificate& certificate)
+    explicit TreeContents(const Certificate& certificate)
         : by_node_(certificate.nodes.size()), by_list_(certificate.lists.size()) {
         /// A node or list, and whether all below it has been gone through.
         struct Visit {

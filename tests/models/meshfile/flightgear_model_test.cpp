@@ -52,9 +52,9 @@ TEST_CASE("an aircraft of FlightGear is read by its own file, which names its mo
                    .notes.front(),
         Catch::Contains("no file of path 'none.xml'"));
     CHECK_THAT(error_of("first.xml", "<PropertyList><path>none.ac</path></PropertyList>"),
-        Catch::Contains("expected a file of its path, got none called 'none.ac'"));
+        Catch::Contains("first.xml:1: expected a file of its path, got none called 'none.ac'"));
     CHECK_THAT(error_of("none-set.xml", "<PropertyList><sim><model><path>none.xml</path></model></sim></PropertyList>"),
-        Catch::Contains("expected a file of its sim/model/path, got none called 'none.xml'"));
+        Catch::Contains("none-set.xml:1: expected a file of its sim/model/path, got none called 'none.xml'"));
     CHECK_THAT(error_of("void-set.xml", "<PropertyList><sim/></PropertyList>"),
         Catch::Contains("expected a model's path in sim/model, got none"));
 }

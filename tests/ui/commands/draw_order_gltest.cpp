@@ -129,6 +129,10 @@ TEST_CASE("a certificate is checked by octant-verify, under its old name too, an
     write_file(proof, text);
     CHECK(run_octant({"verify", proof}).exit_code == 1);
     CHECK(run_octant({"verify", "/nowhere/proof.txt"}).exit_code == 2);
+    write_file(order_file("triangle.obj"), "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    const auto swapped = run_octant({"verify", order_file("triangle.obj"), proof});
+    CHECK(swapped.exit_code == 2);
+    CHECK(swapped.err.find("triangle.obj:1: expected 'octant-certificate 2' first, got ") != std::string::npos);
     CHECK(run_octant({"verify"}).exit_code == 2);
 }
 
