@@ -162,9 +162,12 @@ std::optional<glm::dvec3> ViewRegion::interior_point() const {
     return glm::dvec3(sum.x, sum.y, sum.z) / sum.w;
 }
 
-/// A facet is redundant when all rays on it lie on another facet, too. Where rays are not known well enough to tell, as
-/// in a region thinner than itself, none is.
+/// A facet is redundant when all rays on it lie on another facet, too, and the region without it is no larger: in a thin
+/// region rays are on facets by rounding alone. Where rays are not known well enough to tell, none is.
 std::vector<Plane> ViewRegion::planes() const {
+    const auto plane_of = [&](std::size_t facet) {
+        return Plane{{facets_[facet].x, facets_[facet].y, facets_[facet].z}, facets_[facet].w};
+    };
     std::vector<bool> kept(facets_.size(), true);
     const bool is_known = is_well_conditioned_ && interior_point();
     for (std::size_t i = 1; i < facets_.size() && is_known; ++i) {
@@ -174,9 +177,20 @@ std::vector<Plane> ViewRegion::planes() const {
             kept[i] = !within;
         }
     }
+    std::optional<ViewRegion> region = all_space();
+    for (std::size_t i = 1; i < facets_.size() && region; ++i) {
+        if (kept[i]) { region = region->cut(plane_of(i)); }
+    }
+    for (std::size_t i = 1; i < facets_.size() && region; ++i) {
+        const Plane behind{-plane_of(i).normal, -plane_of(i).offset_m};
+        if (!kept[i] && region->intersects_front_of(behind)) {
+            kept[i] = true;
+            region = region->cut(plane_of(i));
+        }
+    }
     std::vector<Plane> planes;
     for (std::size_t i = 1; i < facets_.size(); ++i) {
-        if (kept[i]) { planes.push_back({{facets_[i].x, facets_[i].y, facets_[i].z}, facets_[i].w}); }
+        if (kept[i] || !region) { planes.push_back(plane_of(i)); }
     }
     return planes;
 }

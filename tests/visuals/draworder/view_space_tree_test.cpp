@@ -9,6 +9,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <glm/geometric.hpp>
+#include <optional>
+#include <random>
+#include <utility>
+#include <vector>
 
 using namespace octant::visuals::draworder;
 using octant::Plane;
@@ -150,4 +155,47 @@ TEST_CASE("a tree that splits more than another order is given up, and only then
     asked = 0;
     CHECK(best_tree(octant::tests::u_channel(), budget, at_most(0)).work.sibling_pieces.empty());
     CHECK(asked == 0);
+}
+
+TEST_CASE("the planes of a region bound it, however nearly some of them coincide") {
+    std::mt19937 random(7);
+    std::uniform_real_distribution<double> unit(-1.0, 1.0);
+    int points = 0;
+    int outside = 0;
+    for (int trial = 0; trial < 3000; ++trial) {
+        std::vector<Plane> cuts;
+        std::optional<ViewRegion> region = ViewRegion::all_space();
+        const double spread = std::pow(10.0, -6.5 + 3.0 * unit(random)); // of planes that all but coincide
+        for (int i = 0; i < 14; ++i) {
+            const double angle_rad = 0.3927 * std::round(8.0 * unit(random));
+            const double c = std::cos(angle_rad);
+            const double s = std::sin(angle_rad);
+            const glm::dvec3 off{unit(random), unit(random), unit(random)};
+            const glm::dvec3 normal =
+                glm::normalize((i % 3 == 2 ? glm::dvec3(0.0, c, s) : glm::dvec3(c, 0.0, s)) + spread * off);
+            const glm::dvec3 through = unit(random) > 0.0 ? glm::dvec3(0.0) : glm::dvec3(0.5, 0.25, 0.1);
+            Plane plane{normal, spread * unit(random) - glm::dot(normal, through)};
+            if (!region->intersects_front_of(plane)) { plane = {-plane.normal, -plane.offset_m}; }
+            if (std::optional<ViewRegion> cut = region->cut(plane)) {
+                region = std::move(cut);
+                cuts.push_back(plane);
+            }
+        }
+        const std::vector<Plane> bounds = region->planes();
+        for (int i = 0; i < 400; ++i) {
+            const glm::dvec3 at = 3.0 * glm::dvec3(unit(random), unit(random), unit(random));
+            const auto lowest_over = [&](const std::vector<Plane>& planes) {
+                double lowest = 10.0;
+                for (const Plane& plane : planes) {
+                    lowest = std::min(lowest, glm::dot(plane.normal, at) + plane.offset_m);
+                }
+                return lowest;
+            };
+            if (lowest_over(bounds) < 0.0) { continue; }
+            ++points;
+            if (lowest_over(cuts) < -1e-6) { ++outside; }
+        }
+    }
+    CHECK(points > 1000);
+    CHECK(outside == 0);
 }
