@@ -66,11 +66,11 @@ struct ColourStop {
 };
 
 // Cover of level ground by height above the water, and what shows where it is steep.
-constexpr std::array meadow_stops = {ColourStop{0.0F, {0.46F, 0.50F, 0.28F}}, ColourStop{300.0F, {0.37F, 0.47F, 0.22F}},
+constexpr std::array meadow_stops = {ColourStop{0.0F, {0.44F, 0.48F, 0.29F}}, ColourStop{300.0F, {0.37F, 0.47F, 0.22F}},
     ColourStop{1100.0F, {0.36F, 0.42F, 0.23F}}, ColourStop{1600.0F, {0.44F, 0.44F, 0.29F}},
     ColourStop{2000.0F, {0.49F, 0.475F, 0.38F}}};
 constexpr glm::vec3 heath(0.40F, 0.38F, 0.24F);
-constexpr glm::vec3 dry_grass(0.58F, 0.55F, 0.31F);
+constexpr glm::vec3 dry_grass(0.56F, 0.52F, 0.34F);
 constexpr glm::vec3 steppe(0.60F, 0.54F, 0.37F); ///< grass of dry climates
 constexpr glm::vec3 forest(0.14F, 0.25F, 0.12F);
 constexpr float tree_line_m = 1500.0F; ///< for which the stops are meant ...

@@ -114,8 +114,9 @@ constexpr double low_horizon = 0.66; ///< of luminance
 /// Exposure makes up for so much of lost sunlight, in stops a stop, under a high sun and under one at the horizon.
 constexpr double exposure_power = 0.60;
 constexpr double low_exposure_power = 0.85;
-constexpr double low_saturation = 0.72;  ///< of the sunlight's hue, the rest is taken for white
-constexpr double blue_saturation = 0.75; ///< of the sky above the warm band
+constexpr double high_exposure_power = 0.35; ///< of light on level ground that exceeds the usual sun's
+constexpr double low_saturation = 0.72;      ///< of the sunlight's hue, the rest is taken for white
+constexpr double blue_saturation = 0.75;     ///< of the sky above the warm band
 /// Of the mean of red and blue, under a high sun and under one at the horizon: less is lilac.
 constexpr double min_green = 0.96;
 constexpr double low_min_green = 1.02;
@@ -166,7 +167,7 @@ ExposedSky::ExposedSky(double sun_elevation_rad, const glm::dvec3& horizon)
     };
     const glm::dvec3 aim = -glm::log(1.0 - glm::min(models::linear_from_srgb(horizon), glm::dvec3(0.98)));
     const glm::dvec3 usual_exposure = aim / horizon_of(usual_);
-    const double wanted = glm::dot(aim, weights) * glm::mix(1.0, low_horizon, low_);
+    const double wanted = glm::dot(aim, weights) * glm::mix(1.0, low_horizon, low_ * low_);
     const glm::dvec3 found = horizon_of(sky_);
     exposure_ = usual_exposure * (wanted / std::max(glm::dot(usual_exposure * found, weights), 1e-6));
     low_exposure_ = wanted / std::max(glm::dot(found, weights), 1e-6);
@@ -209,6 +210,11 @@ glm::dvec3 sky_tint(const ExposedSky& sky) {
     return sum * (3.0 / (sum.x + sum.y + sum.z));
 }
 
+/// Green: near the luminance.
+float light_on_level(const glm::vec3& ambient, const glm::vec3& sunlight, double sun_elevation_rad) {
+    return ambient.y + sunlight.y * static_cast<float>(std::sin(sun_elevation_rad));
+}
+
 } // namespace
 
 Daylight::Daylight(const DaylightOptions& options)
@@ -233,6 +239,13 @@ Daylight::Daylight(const DaylightOptions& options)
     const glm::dvec3 share = sunlight_share(elevation_rad);
     sunlight_ = usual_sunlight * glm::vec3(glm::min(share, glm::dvec3(1.15)));
     const glm::dvec3 pure = share / std::max({share.x, share.y, share.z});
+    const float level_light = light_on_level(ambient_, sunlight_, elevation_rad);
+    const float usual_light = light_on_level(usual_ambient, usual_sunlight, usual_elevation_rad);
+    if (level_light > usual_light) {
+        const float exposure = std::pow(usual_light / level_light, static_cast<float>(high_exposure_power));
+        ambient_ *= exposure;
+        sunlight_ *= exposure;
+    }
     disc_ = glm::vec3(glm::mix(pure, glm::dvec3(1.0), glm::mix(0.5, 0.95, std::sqrt(1.0 - low))));
 }
 

@@ -48,16 +48,22 @@ TEST_CASE("under a sun of 35 degrees the haze away from the sun has the colour t
     for (int part = 0; part < 3; ++part) { CHECK(day.haze_away()[part] == Approx(given[part]).margin(1e-4)); }
 }
 
-TEST_CASE("the lower the sun, the warmer and the darker light and horizon are") {
+TEST_CASE(
+    "the lower the sun, the warmer it is, the weaker beside the sky's light, and the darker are ground and horizon") {
     float last_warmth = 0.0F;
-    float last_sunlight = 10.0F;
+    float last_share = 10.0F;
+    float last_on_level = 10.0F;
     for (const double elevation_deg : {60.0, 30.0, 15.0, 8.0, 4.0, 1.0}) {
         INFO(elevation_deg);
         const Daylight day = under(elevation_deg);
         CHECK(warmth(day.sunlight()) > last_warmth);
-        CHECK(day.sunlight().y < last_sunlight);
+        const float share = day.sunlight().y / day.ambient().y;
+        CHECK(share < last_share);
+        const float on_level = day.ambient().y + day.sunlight().y * static_cast<float>(day.to_sun().z);
+        CHECK(on_level < last_on_level);
         last_warmth = warmth(day.sunlight());
-        last_sunlight = day.sunlight().y;
+        last_share = share;
+        last_on_level = on_level;
     }
     CHECK(warmth(under(2.0).haze_away()) > warmth(under(35.0).haze_away()) + 0.3F);
     CHECK(under(2.0).haze_away().y < under(35.0).haze_away().y);
