@@ -131,6 +131,13 @@ SceneGround with_texture_and_notes(std::shared_ptr<const landscape::Ground> grou
         loaded.notes.push_back(
             fmt::format("{}: {} samples without data were filled in", source.area.name, filled_voids));
     }
+    if (!source.place && !settings.air.palette && !settings.air.drape &&
+        !terrain_sources(settings.path).files.empty()) {
+        loaded.notes.push_back(
+            fmt::format("{}: its place on the earth is not known, so it is shown as moist, temperate land; "
+                        "--palette arid shows a desert",
+                source.area.name));
+    }
     add_texture(settings, device, loaded);
     if (loaded.texture) { loaded.info.name += settings.air.drape ? ", draped" : ", textured"; }
     return loaded;

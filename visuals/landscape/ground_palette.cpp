@@ -66,22 +66,22 @@ struct ColourStop {
 };
 
 // Cover of level ground by height above the water, and what shows where it is steep.
-constexpr std::array meadow_stops = {ColourStop{0.0F, {0.46F, 0.50F, 0.28F}}, ColourStop{300.0F, {0.37F, 0.47F, 0.22F}},
+constexpr std::array meadow_stops = {ColourStop{0.0F, {0.44F, 0.48F, 0.29F}}, ColourStop{300.0F, {0.37F, 0.47F, 0.22F}},
     ColourStop{1100.0F, {0.36F, 0.42F, 0.23F}}, ColourStop{1600.0F, {0.44F, 0.44F, 0.29F}},
     ColourStop{2000.0F, {0.49F, 0.475F, 0.38F}}};
 constexpr glm::vec3 heath(0.40F, 0.38F, 0.24F);
-constexpr glm::vec3 dry_grass(0.58F, 0.55F, 0.31F);
+constexpr glm::vec3 dry_grass(0.56F, 0.52F, 0.34F);
 constexpr glm::vec3 steppe(0.60F, 0.54F, 0.37F); ///< grass of dry climates
 constexpr glm::vec3 forest(0.14F, 0.25F, 0.12F);
 constexpr float tree_line_m = 1500.0F; ///< for which the stops are meant ...
 constexpr float snow_line_m = 2350.0F; ///< ... and the line of lasting snow
 constexpr std::array crops = {glm::vec3(0.66F, 0.58F, 0.33F), glm::vec3(0.33F, 0.46F, 0.19F),
-    glm::vec3(0.45F, 0.52F, 0.25F), glm::vec3(0.47F, 0.37F, 0.25F)};
+    glm::vec3(0.45F, 0.52F, 0.25F), glm::vec3(0.46F, 0.40F, 0.28F)};
 const glm::vec3 mean_crop = 0.25F * (crops[0] + crops[1] + crops[2] + crops[3]);
-constexpr std::array arid_stops = {ColourStop{0.0F, {0.45F, 0.33F, 0.24F}}, ColourStop{900.0F, {0.58F, 0.38F, 0.26F}},
-    ColourStop{1300.0F, {0.66F, 0.44F, 0.30F}}, ColourStop{1700.0F, {0.68F, 0.52F, 0.36F}},
+constexpr std::array arid_stops = {ColourStop{0.0F, {0.46F, 0.36F, 0.26F}}, ColourStop{900.0F, {0.57F, 0.42F, 0.29F}},
+    ColourStop{1300.0F, {0.64F, 0.48F, 0.33F}}, ColourStop{1700.0F, {0.67F, 0.54F, 0.38F}},
     ColourStop{2050.0F, {0.60F, 0.54F, 0.36F}}, ColourStop{2400.0F, {0.42F, 0.45F, 0.28F}}};
-constexpr glm::vec3 temperate_rock(0.47F, 0.455F, 0.405F);
+constexpr glm::vec3 temperate_rock(0.49F, 0.47F, 0.395F);
 constexpr glm::vec3 scree(0.54F, 0.52F, 0.46F);
 constexpr glm::vec3 shrubs(0.36F, 0.36F, 0.22F);
 constexpr glm::vec3 chaparral(0.29F, 0.31F, 0.17F); ///< closed shrubs of half-dry climates
@@ -295,7 +295,7 @@ glm::vec3 strata_colour(const SiteConditions& site) {
     const float down_m = site.footprint_m * std::min(std::sqrt(2.0F * site.steepness), 1.0F);
     const float ledges = visible_contrast(2.0F * ledge_m, down_m) * (layer(ledge_m, 11) - 0.5F) +
                          visible_contrast(2.0F * bed_m, down_m) * (layer(bed_m, 13) - 0.5F);
-    return glm::mix(glm::vec3(0.55F, 0.30F, 0.19F), glm::vec3(0.78F, 0.62F, 0.45F), layer(band_m, 7)) *
+    return glm::mix(glm::vec3(0.50F, 0.36F, 0.24F), glm::vec3(0.74F, 0.63F, 0.46F), layer(band_m, 7)) *
            (1.0F + 0.22F * ledges) * mottling(site, 40.0F, 0.07F);
 }
 

@@ -13,7 +13,11 @@ namespace {
 /// Distances of the rings from the map's edge over its mean half extent, from outside in. The last lies under the map's
 /// own border.
 constexpr std::array ring_distance_ratios = {
-    2.5, 1.8, 1.3, 1.0, 0.78, 0.62, 0.50, 0.40, 0.32, 0.25, 0.19, 0.135, 0.09, 0.05, 0.02, -0.01};
+    5.0, 3.3, 2.2, 1.5, 1.0, 0.78, 0.62, 0.50, 0.40, 0.32, 0.25, 0.18, 0.11, 0.05, 0.02, -0.01};
+constexpr double flat_ratio = 1.0; ///< from this ring on the land lies at the mean height
+/// Small maps' flat rings are farther off, so that the outermost one is at least so far.
+constexpr double min_reach_m = 20000.0;
+constexpr double full_colour_share = 0.4; ///< of the reach: from here on colours fade to the mean one
 constexpr int vertices_per_side = 48;
 constexpr int vertices_per_ring = 4 * vertices_per_side;
 constexpr double overlap_depth_ratio = 0.02; ///< of the last ring, over the map's mean half extent
@@ -40,8 +44,15 @@ double mirrored(double at_m, double half_m) {
     return turn - half_m;
 }
 
+double size_of(const BackdropSource& map) { return 0.5 * (map.half_extent_m.x + map.half_extent_m.y); }
+
+/// Of the outermost ring, over the map's mean half extent.
+double reach_of(const BackdropSource& map) {
+    return std::max(ring_distance_ratios.front(), min_reach_m / size_of(map));
+}
+
 Backdrop::BackdropVertex vertex_at(const BackdropSource& map, double share, int number) {
-    const double size_m = 0.5 * (map.half_extent_m.x + map.half_extent_m.y);
+    const double size_m = size_of(map);
     const glm::dvec2 at_m = square_outline_point(number) * (map.half_extent_m + share * size_m);
     constexpr double inside = 0.999;
     const glm::dvec2 mirrored_m(
@@ -51,11 +62,14 @@ Backdrop::BackdropVertex vertex_at(const BackdropSource& map, double share, int 
     };
     const glm::dvec2 edge_m = glm::clamp(at_m, -inside * map.half_extent_m, inside * map.half_extent_m);
     if (is_water(edge_m)) { return {{at_m, *map.water_level_m}, map.colour(edge_m, 0.0), 0.0F, true}; }
-    const double left = 1.0 - glm::smoothstep(0.0, 1.0, std::max(share, 0.0) / ring_distance_ratios.front());
-    const double height_m = glm::mix(map.mean_height_m, map.height_m(mirrored_m), left) -
+    const double relief = 1.0 - glm::smoothstep(0.0, flat_ratio, share);
+    const double reach = reach_of(map);
+    const double contrast = 1.0 - glm::smoothstep(full_colour_share * reach, reach, share);
+    const double height_m = glm::mix(map.mean_height_m, map.height_m(mirrored_m), relief) -
                             (share < 0.0 ? overlap_depth_ratio * size_m : 0.0);
-    const double footprint_m = std::max(1.2 * size_m / vertices_per_side, 0.12 * share * size_m);
-    return {{at_m, height_m}, glm::mix(map.mean_colour, map.colour(mirrored_m, footprint_m), static_cast<float>(left)),
+    const double footprint_m = std::max(1.2 / vertices_per_side, 0.09 * std::min(share, 6.0)) * size_m;
+    return {{at_m, height_m},
+        glm::mix(map.mean_colour, map.colour(mirrored_m, footprint_m), static_cast<float>(contrast)),
         map.cover_code ? map.cover_code(mirrored_m, footprint_m) : 0.0F, is_water(mirrored_m)};
 }
 
@@ -64,7 +78,9 @@ Backdrop::BackdropVertex vertex_at(const BackdropSource& map, double share, int 
 Backdrop make_backdrop(const BackdropSource& map) {
     Backdrop backdrop;
     backdrop.outer_vertices = vertices_per_ring;
-    for (const double share : ring_distance_ratios) {
+    const double stretch = (reach_of(map) - flat_ratio) / (ring_distance_ratios.front() - flat_ratio);
+    for (const double ratio : ring_distance_ratios) {
+        const double share = ratio + (stretch - 1.0) * std::max(ratio - flat_ratio, 0.0);
         for (int number = 0; number < vertices_per_ring; ++number) {
             backdrop.vertices.push_back(vertex_at(map, share, number));
         }

@@ -16,7 +16,9 @@ namespace octant::visuals::nature {
 // (attenuation of sunlight by molecules and aerosols) and A.2 (zenith values, coefficients of Perez's distribution F).
 //
 // Deviations: ozone, mixed gases and water vapour are left out of the sunlight; red, green and blue are attenuated as
-// light of 610, 550 and 465 nm.
+// light of 610, 550 and 465 nm. Under low suns the model's skies are lemon and green, and lilac away from the sun.
+// There only its luminance is taken. The hue is the sunlight's own in a band above the horizon, wider and stronger
+// towards the sun, where light has come a long way, and above it that of the sky under a higher sun.
 
 namespace {
 
@@ -96,112 +98,160 @@ namespace {
 
 constexpr double turbidity = 2.6;
 constexpr double usual_elevation_rad = rad_from_deg(35.0); ///< under which colours are as given
-constexpr double adapted_rad = rad_from_deg(25.0);         ///< lower suns are seen darker
+constexpr double low_elevation_rad = rad_from_deg(25.0);   ///< lower suns make the light warm
+constexpr double reddest_rad = rad_from_deg(2.5);          ///< suns below it are not redder
 constexpr double horizon_rad = rad_from_deg(1.0);
-constexpr double horizon_blend_rad = rad_from_deg(6.0);
+constexpr double horizon_blend_rad = rad_from_deg(4.0);
 const glm::dvec3 usual_horizon(0.62, 0.72, 0.84); ///< under which the light is as given
 const glm::dvec3 weights(0.2126, 0.7152, 0.0722); ///< luminance of linear sRGB
 
-// Light on the ground under the usual sun, and what a low sun leaves of the light from everywhere.
+// Light on the ground under the usual sun, and the factors that the camera's exposure leaves under a sun at the
+// horizon.
 const glm::vec3 usual_ambient(0.39F, 0.42F, 0.47F);
 const glm::vec3 usual_sunlight(0.80F, 0.78F, 0.74F);
-constexpr double min_ambient = 0.95;
-constexpr double min_horizon = 0.42;
-constexpr double eye_power = 0.6;           ///< how far the eye makes up for lost sunlight, in stops a stop
-constexpr double least_green = 0.96;        ///< of the mean of red and blue: less is lilac
-const glm::dvec3 low_tint(1.0, 0.88, 1.28); ///< a low sun's sky is less green than the model's
+constexpr double low_ambient = 1.40;
+constexpr double low_horizon = 0.66; ///< of luminance
+/// Exposure makes up for so much of lost sunlight, in stops a stop, under a high sun and under one at the horizon.
+constexpr double exposure_power = 0.60;
+constexpr double low_exposure_power = 0.85;
+constexpr double high_exposure_power = 0.35; ///< of light on level ground that exceeds the usual sun's
+constexpr double low_saturation = 0.72;      ///< of the sunlight's hue, the rest is taken for white
+constexpr double blue_saturation = 0.75;     ///< of the sky above the warm band
+/// Of the mean of red and blue, under a high sun and under one at the horizon: less is lilac.
+constexpr double min_green = 0.96;
+constexpr double low_min_green = 1.02;
 
-/// The model's skies around a low sun are lemon and green, and lilac away from it: where red is stronger than blue,
-/// green keeps between both, nearer to blue, and blue is not lost; elsewhere green is not much weaker than their mean.
-/// `light`: linear, as it is displayed; `low`: 1 for a sun at the horizon, 0 for one that is high.
-glm::dvec3 without_tints(const glm::dvec3& light, double low) {
-    const double blue = std::max(light.z, 0.3 * light.x);
-    const double most = glm::mix(light.x, blue, 0.58);
-    const double green =
-        light.x > light.z ? std::min(light.y, most) : std::max(light.y, least_green * 0.5 * (light.x + light.z));
-    return glm::mix(light, glm::dvec3(light.x, green, blue), low);
+/// 1 for a sun at the horizon, 0 for one that is high.
+double lowness_of(double sun_elevation_rad) {
+    return 1.0 - glm::smoothstep(0.0, 1.0, sun_elevation_rad / low_elevation_rad);
 }
 
-/// The sky's mean light around the horizon, but for the side of the sun.
-glm::dvec3 horizon_light(const PerezSky& sky) {
+glm::dvec3 hue_of(const glm::dvec3& light) { return light / std::max(glm::dot(light, weights), 1e-9); }
+
+/// The sun's light over that under the usual sun.
+glm::dvec3 sunlight_ratio(double sun_elevation_rad) {
+    return sunlight_transmittance(sun_elevation_rad, turbidity) /
+           sunlight_transmittance(usual_elevation_rad, turbidity);
+}
+
+/// The sunlight's hue as a camera balanced partly for it shows it. Light scattered more than once keeps it from turning
+/// red at the horizon.
+glm::dvec3 balanced_hue(double sun_elevation_rad) {
+    const glm::dvec3 hue = hue_of(sunlight_ratio(std::max(sun_elevation_rad, reddest_rad)));
+    return glm::mix(glm::dvec3(1.0), hue, glm::mix(1.0, low_saturation, lowness_of(sun_elevation_rad)));
+}
+
+/// The mean around the horizon, but for the side of the sun, of what `light` gives by azimuth.
+template <typename Light>
+glm::dvec3 mean_beside_sun(const Light& light) {
     glm::dvec3 sum(0.0);
-    for (const double azimuth_deg : {60.0, 90.0, 120.0, 180.0}) {
-        sum += 0.25 * sky.light(horizon_rad, rad_from_deg(azimuth_deg));
-    }
+    for (const double azimuth_deg : {60.0, 90.0, 120.0, 180.0}) { sum += 0.25 * light(rad_from_deg(azimuth_deg)); }
     return sum;
 }
 
-/// What brings the usual horizon to its display colour, and lower suns' horizons to darker ones.
-glm::dvec3 exposure_of(const PerezSky& sky, double elevation_rad, const glm::dvec3& horizon) {
-    const glm::dvec3 usual_light = horizon_light(PerezSky(usual_elevation_rad, turbidity));
-    const glm::dvec3 aim = -glm::log(1.0 - glm::min(models::linear_from_srgb(horizon), glm::dvec3(0.98)));
-    const glm::dvec3 usual = aim / usual_light;
-    const double grey = glm::dot(aim, weights) / glm::dot(usual_light, weights);
-    const double day = glm::smoothstep(0.0, 1.0, elevation_rad / adapted_rad);
-    const glm::dvec3 tint = glm::mix(grey * low_tint, usual, day);
-    const double wanted = glm::dot(aim, weights) * glm::mix(min_horizon, 1.0, day);
-    return tint * (wanted / std::max(glm::dot(tint * horizon_light(sky), weights), 1e-6));
+/// How much of the sunlight's hue the sky has in a direction under a sun at the horizon.
+double warm_share(double elevation_rad, double azimuth_rad) {
+    const double towards = 0.5 + 0.5 * std::cos(azimuth_rad);
+    const double strength = 0.62 + 0.36 * towards * towards;
+    const double height_rad = rad_from_deg(7.0 + 14.0 * towards * towards);
+    return strength * std::exp(-elevation_rad / height_rad);
 }
+
+} // namespace
+
+ExposedSky::ExposedSky(double sun_elevation_rad, const glm::dvec3& horizon)
+    : sky_(sun_elevation_rad, turbidity), usual_(usual_elevation_rad, turbidity), low_(lowness_of(sun_elevation_rad)),
+      sunlight_hue_(balanced_hue(sun_elevation_rad)) {
+    const auto horizon_of = [](const PerezSky& sky) {
+        return mean_beside_sun([&](double azimuth_rad) { return sky.light(horizon_rad, azimuth_rad); });
+    };
+    const glm::dvec3 aim = -glm::log(1.0 - glm::min(models::linear_from_srgb(horizon), glm::dvec3(0.98)));
+    const glm::dvec3 usual_exposure = aim / horizon_of(usual_);
+    const double wanted = glm::dot(aim, weights) * glm::mix(1.0, low_horizon, low_ * low_);
+    const glm::dvec3 found = horizon_of(sky_);
+    exposure_ = usual_exposure * (wanted / std::max(glm::dot(usual_exposure * found, weights), 1e-6));
+    low_exposure_ = wanted / std::max(glm::dot(found, weights), 1e-6);
+}
+
+glm::dvec3 ExposedSky::light(double elevation_rad, double azimuth_rad) const {
+    const glm::dvec3 model = sky_.light(elevation_rad, azimuth_rad);
+    if (low_ <= 0.0) { return exposure_ * model; }
+    const glm::dvec3 blue =
+        glm::mix(glm::dvec3(1.0), hue_of(exposure_ * usual_.light(elevation_rad, 0.5 * pi)), blue_saturation);
+    glm::dvec3 hue = glm::mix(blue, sunlight_hue_, warm_share(elevation_rad, azimuth_rad));
+    hue.y = std::max(hue.y, std::sqrt(hue.x * hue.z)); // less is lilac, between blue and orange
+    return glm::mix(exposure_ * model, low_exposure_ * glm::dot(model, weights) * hue, low_);
+}
+
+glm::dvec3 ExposedSky::horizon_light() const {
+    return mean_beside_sun([&](double azimuth_rad) { return light(horizon_rad, azimuth_rad); });
+}
+
+namespace {
 
 glm::dvec3 power_of(const glm::dvec3& light) { return glm::pow(light, glm::dvec3(1.0 / 2.2)); }
 
-/// The sun's colour over its colour at the usual height, as the adapted eye sees it.
+/// The sun's colour over its colour at the usual height, display values.
 glm::dvec3 sunlight_share(double elevation_rad) {
-    const glm::dvec3 share =
-        sunlight_transmittance(elevation_rad, turbidity) / sunlight_transmittance(usual_elevation_rad, turbidity);
-    return power_of(share * std::pow(glm::dot(share, weights), -eye_power));
+    const glm::dvec3 ratio = sunlight_ratio(elevation_rad);
+    const double left = 1.0 - glm::mix(exposure_power, low_exposure_power, lowness_of(elevation_rad));
+    return power_of(balanced_hue(elevation_rad) * std::pow(glm::dot(ratio, weights), left));
 }
 
-/// Mean colour of the whole sky, its parts' mean being 1.
-glm::dvec3 sky_tint(const PerezSky& sky, const glm::dvec3& exposure) {
+/// Mean colour of the whole sky as level ground sees it, its parts' mean being 1.
+glm::dvec3 sky_tint(const ExposedSky& sky) {
     glm::dvec3 sum(0.0);
     for (const double elevation_deg : {10.0, 30.0, 60.0}) {
+        const double elevation_rad = rad_from_deg(elevation_deg);
         for (int i = 0; i < 8; ++i) {
-            sum += power_of(exposure * sky.light(rad_from_deg(elevation_deg), pi / 4.0 * i));
+            sum += std::sin(2.0 * elevation_rad) * power_of(sky.light(elevation_rad, pi / 4.0 * i));
         }
     }
     return sum * (3.0 / (sum.x + sum.y + sum.z));
 }
 
+/// Green: near the luminance.
+float light_on_level(const glm::vec3& ambient, const glm::vec3& sunlight, double sun_elevation_rad) {
+    return ambient.y + sunlight.y * static_cast<float>(std::sin(sun_elevation_rad));
+}
+
 } // namespace
 
 Daylight::Daylight(const DaylightOptions& options)
-    : sky_(std::max(options.sun_elevation_rad, 0.0), turbidity), sun_azimuth_rad_(options.sun_azimuth_rad) {
+    : sky_(std::max(options.sun_elevation_rad, 0.0), glm::dvec3(options.horizon)) {
     if (options.dust) {
         const glm::dvec3 tint = glm::sqrt(models::linear_from_srgb(glm::dvec3(*options.dust)));
         air_tint_ = tint / glm::dot(tint, weights);
     }
     const double elevation_rad = std::max(options.sun_elevation_rad, 0.0);
-    const glm::dvec2 level(std::sin(sun_azimuth_rad_), std::cos(sun_azimuth_rad_));
+    const glm::dvec2 level(std::sin(options.sun_azimuth_rad), std::cos(options.sun_azimuth_rad));
     to_sun_ = {std::cos(elevation_rad) * level.x, std::cos(elevation_rad) * level.y, std::sin(elevation_rad)};
     horizontal_to_sun_ = level;
-    exposure_ = exposure_of(sky_, elevation_rad, glm::dvec3(options.horizon));
-    low_ = 1.0 - glm::smoothstep(0.0, 1.0, elevation_rad / adapted_rad);
-    haze_away_ = displayed(horizon_light(sky_));
-    haze_sunward_ = perez(horizon_rad, 0.0);
-    const double day = glm::smoothstep(0.0, 1.0, elevation_rad / adapted_rad);
-    const PerezSky usual(usual_elevation_rad, turbidity);
-    const glm::dvec3 tint = sky_tint(sky_, exposure_of(sky_, elevation_rad, usual_horizon)) /
-                            sky_tint(usual, exposure_of(usual, usual_elevation_rad, usual_horizon));
-    // The eye takes most of the light's own colour for white.
-    ambient_ = usual_ambient * glm::vec3(glm::sqrt(tint) * glm::mix(min_ambient, 1.0, day));
-    ambient_.y = std::max(ambient_.y, static_cast<float>(least_green) * 0.5F * (ambient_.x + ambient_.z));
+    haze_away_ = displayed(sky_.horizon_light());
+    haze_sunward_ = displayed(sky_.light(horizon_rad, 0.0));
+    const double low = lowness_of(elevation_rad);
+    const glm::dvec3 tint =
+        sky_tint(ExposedSky(elevation_rad, usual_horizon)) / sky_tint(ExposedSky(usual_elevation_rad, usual_horizon));
+    // The camera takes half of the light's own colour for white.
+    ambient_ = usual_ambient * glm::vec3(glm::sqrt(tint) * glm::mix(1.0, low_ambient, low));
+    const auto least_green = static_cast<float>(glm::mix(min_green, low_min_green, low));
+    ambient_.y = std::max(ambient_.y, least_green * 0.5F * (ambient_.x + ambient_.z));
     const glm::dvec3 share = sunlight_share(elevation_rad);
     sunlight_ = usual_sunlight * glm::vec3(glm::min(share, glm::dvec3(1.15)));
     const glm::dvec3 pure = share / std::max({share.x, share.y, share.z});
-    disc_ = glm::vec3(glm::mix(pure, glm::dvec3(1.0), glm::mix(0.5, 0.95, std::sqrt(day))));
-}
-
-glm::vec3 Daylight::displayed(const glm::dvec3& light) const {
-    const glm::dvec3 exposed = exposure_ * light;
-    if (air_tint_) {
-        return glm::vec3(models::srgb_from_linear(1.0 - glm::exp(-glm::dot(exposed, weights) * *air_tint_)));
+    const float level_light = light_on_level(ambient_, sunlight_, elevation_rad);
+    const float usual_light = light_on_level(usual_ambient, usual_sunlight, usual_elevation_rad);
+    if (level_light > usual_light) {
+        const float exposure = std::pow(usual_light / level_light, static_cast<float>(high_exposure_power));
+        ambient_ *= exposure;
+        sunlight_ *= exposure;
     }
-    return glm::vec3(models::srgb_from_linear(without_tints(1.0 - glm::exp(-exposed), low_)));
+    disc_ = glm::vec3(glm::mix(pure, glm::dvec3(1.0), glm::mix(0.5, 0.95, std::sqrt(1.0 - low))));
 }
 
-glm::vec3 Daylight::perez(double elevation_rad, double azimuth_rad) const {
-    return displayed(sky_.light(elevation_rad, azimuth_rad));
+glm::vec3 Daylight::displayed(const glm::dvec3& exposed) const {
+    const glm::dvec3 light = air_tint_ ? glm::dot(exposed, weights) * *air_tint_ : exposed;
+    return glm::vec3(models::srgb_from_linear(1.0 - glm::exp(-light)));
 }
 
 glm::vec3 Daylight::horizon(double cos_to_sun) const {
@@ -213,7 +263,7 @@ glm::vec3 Daylight::sky(const glm::dvec3& direction) const {
     const double elevation_rad = std::asin(std::clamp(direction.z, 0.0, 1.0));
     const double level = std::max(glm::length(glm::dvec2(direction)), 1e-9);
     const double cos_to_sun = glm::dot(glm::dvec2(direction), horizontal_to_sun_) / level;
-    const glm::vec3 high = perez(elevation_rad, std::acos(std::clamp(cos_to_sun, -1.0, 1.0)));
+    const glm::vec3 high = displayed(sky_.light(elevation_rad, std::acos(std::clamp(cos_to_sun, -1.0, 1.0))));
     const auto share = static_cast<float>(glm::smoothstep(0.0, 1.0, elevation_rad / horizon_blend_rad));
     return glm::mix(horizon(cos_to_sun), high, share);
 }
@@ -236,9 +286,15 @@ constexpr float slope_variance = 0.02F;
 /// Waves that face the eye hide those behind: at grazing angles less is reflected than off glass.
 constexpr float max_reflected = 0.75F;
 constexpr float glitter = 0.9F; ///< of the sun's colour in the middle of its path
-/// Least half width of the sun's path as seen, radians: colours are known at corners of triangles as wide as this. A
-/// wider path is as much fainter.
-constexpr float min_path_rad = 0.14F;
+/// Least half width of the sun's path as seen, radians: colours are known at corners of triangles half as wide. A wider
+/// path is as much fainter.
+constexpr float min_path_rad = 0.20F;
+constexpr float usual_reflected = 0.085F; ///< of sunlight by a facet, under the usual sun
+
+float reflected_share(float cos_incidence, float most) {
+    const float left = 1.0F - cos_incidence;
+    return straight_down + (most - straight_down) * left * left * left * left * left;
+}
 
 } // namespace
 
@@ -263,19 +319,24 @@ glm::vec3 WaterReflection::sky(const glm::vec3& direction) const {
         glm::mix(sky_sunward_[low], sky_sunward_[low + 1], part), towards * towards);
 }
 
+float WaterReflection::glitter_towards(const glm::vec3& way) const {
+    const glm::vec3 facet = to_sun_ - way;
+    const float along = glm::dot(glm::vec2(facet), horizontal_to_sun_);
+    const float across2 = facet.x * facet.x + facet.y * facet.y - along * along;
+    const float least = min_path_rad / std::max(facet.z, min_path_rad);
+    const float variance = std::max(slope_variance, least * least);
+    const float slopes = (along * along / slope_variance + across2 / variance) / std::max(facet.z * facet.z, 1e-6F);
+    const float cos_incidence = std::sqrt(std::max(0.5F - 0.5F * glm::dot(way, to_sun_), 0.0F));
+    const float reflected = std::max(reflected_share(cos_incidence, 1.0F), usual_reflected) / usual_reflected;
+    return std::exp(-slopes) * glitter * std::sqrt(reflected * slope_variance / variance);
+}
+
 glm::vec3 WaterReflection::shaded_colour(const glm::vec3& own, const glm::vec3& from_eye) const {
     const glm::vec3 way = glm::normalize(from_eye);
     const float down = std::clamp(-way.z, 0.0F, 1.0F);
-    const float left = 1.0F - down;
-    const float reflected = straight_down + (max_reflected - straight_down) * left * left * left * left * left;
-    const glm::vec3 facet = to_sun_ - way;
-    const float across2 = facet.x * facet.x + facet.y * facet.y;
-    const float slope2 = across2 / std::max(facet.z * facet.z, 1e-6F);
-    const float least = min_path_rad / std::max(facet.z, min_path_rad);
-    const float variance = std::max(slope_variance, least * least);
-    const float sparkle = std::exp(-slope2 / variance) * glitter * std::sqrt(slope_variance / variance);
-    const glm::vec3 colour = glm::mix(own, sky({way.x, way.y, std::max(-way.z, 0.02F)}), reflected) + sun_ * sparkle;
-    return glm::min(colour, glm::vec3(1.0F));
+    const glm::vec3 colour =
+        glm::mix(own, sky({way.x, way.y, std::max(-way.z, 0.02F)}), reflected_share(down, max_reflected));
+    return glm::min(colour + sun_ * glitter_towards(way), glm::vec3(1.0F));
 }
 
 } // namespace octant::visuals::nature

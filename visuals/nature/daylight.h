@@ -36,6 +36,27 @@ private:
 /// The share of sunlight that the air transmits to the ground: red, green and blue.
 glm::dvec3 sunlight_transmittance(double sun_elevation_rad, double turbidity);
 
+/// The clear sky as a camera records it that is exposed for the landscape.
+class ExposedSky {
+public:
+    /// `horizon`: display colour of the horizon away from a sun of 35 degrees, by which the camera is set.
+    ExposedSky(double sun_elevation_rad, const glm::dvec3& horizon);
+
+    /// Linear light in a direction as PerezSky::light() takes it; a full exposure is 1 - exp(-light).
+    glm::dvec3 light(double elevation_rad, double azimuth_rad) const;
+
+    /// Its mean around the horizon, but for the side of the sun.
+    glm::dvec3 horizon_light() const;
+
+private:
+    PerezSky sky_;
+    PerezSky usual_;               ///< under a sun of 35 degrees
+    glm::dvec3 exposure_{1.0};     ///< of red, green and blue
+    double low_exposure_ = 1.0;    ///< of luminance, under a low sun
+    double low_ = 0.0;             ///< 1 for a sun at the horizon, 0 for one that is high
+    glm::dvec3 sunlight_hue_{1.0}; ///< of luminance 1
+};
+
 /// The position of the sun, and the colour that the horizon has under a sun of 35 degrees.
 struct DaylightOptions {
     double sun_azimuth_rad = 0.0;           ///< clockwise from north
@@ -45,8 +66,8 @@ struct DaylightOptions {
     std::optional<glm::vec3> dust = {};
 };
 
-/// Colours of the sky, the haze and the light for one position of the sun, display values. Under a low sun they are
-/// darker and warmer, but less so than in nature, because the eye adapts.
+/// Colours of the sky, the haze and the light for one position of the sun, display values, as a camera shows them whose
+/// exposure follows the light on the ground: under a low sun shade is shown lighter than under a high one.
 class Daylight {
 public:
     explicit Daylight(const DaylightOptions& options);
@@ -82,16 +103,13 @@ public:
     static constexpr double glare_rad = 0.41888; ///< angular radius of the glare
 
 private:
-    glm::vec3 displayed(const glm::dvec3& light) const;
-    glm::vec3 perez(double elevation_rad, double azimuth_rad) const;
+    /// `exposed`: what ExposedSky gives.
+    glm::vec3 displayed(const glm::dvec3& exposed) const;
 
-    PerezSky sky_;
-    double sun_azimuth_rad_;
+    ExposedSky sky_;
     glm::dvec3 to_sun_;
     glm::dvec2 horizontal_to_sun_{0.0};
-    glm::dvec3 exposure_{1.0};           ///< of red, green and blue
     std::optional<glm::dvec3> air_tint_; ///< of luminance 1, by dust
-    double low_ = 0.0;                   ///< 1 for a sun at the horizon, 0 for one that is high
     glm::vec3 ambient_{0.0F};
     glm::vec3 sunlight_{0.0F};
     glm::vec3 haze_away_{0.0F};
@@ -112,6 +130,9 @@ private:
     static constexpr std::size_t heights = 9; ///< of the sky, evenly in the sine of elevation
 
     glm::vec3 sky(const glm::vec3& direction) const;
+
+    /// How much of the sun's colour the facets of the water add on a unit vector away from the eye.
+    float glitter_towards(const glm::vec3& way) const;
 
     glm::vec3 to_sun_;
     glm::vec2 horizontal_to_sun_;

@@ -30,6 +30,8 @@ constexpr double dome_radius_m = 1000.0;
 constexpr std::array rings_above_deg = {90.0, 75.0, 60.0, 48.0, 38.0, 30.0, 23.0, 17.0, 12.0, 8.0, 5.0, 2.5, 1.0, 0.0};
 constexpr int rings_above = static_cast<int>(rings_above_deg.size());
 constexpr int rings_below = 7;
+/// From an eye at or below its height the plain is shown as from so far above it, so that it fades into the haze.
+constexpr double raised_eye_m = 1000.0;
 
 /// Rings around the sun: the disc's edge, then its glare.
 constexpr int sun_segments = 32;
@@ -260,6 +262,9 @@ scene::TriangleDraw Sky::around(
     const SurroundingPlain& plain, const scene::Haze& haze, const glm::dvec3& eye_m, const Frustum& frustum) {
     const bool has_land = !land_.vertices.empty() && plain.height_below_eye_m > 0.0;
     SurroundingPlain beyond = plain;
+    if (plain.height_below_eye_m <= 0.0 && std::isfinite(plain.height_below_eye_m)) {
+        beyond.height_below_eye_m = raised_eye_m;
+    }
     if (has_land) {
         const glm::dvec2 to_edge_m = land_half_m_ - glm::abs(glm::dvec2(eye_m));
         beyond.map_edge_m = std::max(plain.map_edge_m, std::min(to_edge_m.x, to_edge_m.y));

@@ -21,7 +21,7 @@ glm::vec3 through_haze(const scene::Haze& haze, const glm::dvec3& position_m, co
 
 /// The endless plain that surrounds the map. The sky shows it below the horizon.
 struct SurroundingPlain {
-    /// The depth of the plain below the eye. Not above zero, or not finite: there is only haze.
+    /// The depth of the plain below the eye. Not finite: there is only haze.
     double height_below_eye_m = 0.0;
     /// The horizontal distance from the eye to the nearest edge of the map.
     double map_edge_m = 0.0;

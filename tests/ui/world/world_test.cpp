@@ -308,8 +308,12 @@ TEST_CASE("a ground is loaded with what is to be said of it, and textured where 
     RunSettings settings = over(rolling_ground());
     const ui::world::SceneGround bare = ui::world::load_scene_ground(settings, RenderDevice::Cpu);
     CHECK(bare.texture == nullptr);
-    CHECK(bare.notes.empty());
     CHECK_FALSE(bare.info.place);
+    REQUIRE(bare.notes.size() == 1);
+    CHECK_THAT(bare.notes[0], Catch::Contains("place on the earth is not known"));
+    settings.air.palette = visuals::scene::Palette::Temperate;
+    CHECK(ui::world::load_scene_ground(settings, RenderDevice::Cpu).notes.empty());
+    settings.air.palette.reset();
     settings.air.ground_shading = visuals::scene::GroundShading::Texture;
     const ui::world::SceneGround textured = ui::world::load_scene_ground(settings, RenderDevice::Cpu);
     REQUIRE(textured.texture);

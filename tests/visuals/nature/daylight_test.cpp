@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 #include <glm/geometric.hpp>
 
+#include <algorithm>
 #include <cmath>
 
 using namespace octant;
@@ -47,19 +48,72 @@ TEST_CASE("under a sun of 35 degrees the haze away from the sun has the colour t
     for (int part = 0; part < 3; ++part) { CHECK(day.haze_away()[part] == Approx(given[part]).margin(1e-4)); }
 }
 
-TEST_CASE("the lower the sun, the warmer and the darker light and horizon are") {
+TEST_CASE(
+    "the lower the sun, the warmer it is, the weaker beside the sky's light, and the darker are ground and horizon") {
     float last_warmth = 0.0F;
-    float last_sunlight = 10.0F;
+    float last_share = 10.0F;
+    float last_on_level = 10.0F;
     for (const double elevation_deg : {60.0, 30.0, 15.0, 8.0, 4.0, 1.0}) {
         INFO(elevation_deg);
         const Daylight day = under(elevation_deg);
         CHECK(warmth(day.sunlight()) > last_warmth);
-        CHECK(day.sunlight().y < last_sunlight);
+        const float share = day.sunlight().y / day.ambient().y;
+        CHECK(share < last_share);
+        const float on_level = day.ambient().y + day.sunlight().y * static_cast<float>(day.to_sun().z);
+        CHECK(on_level < last_on_level);
         last_warmth = warmth(day.sunlight());
-        last_sunlight = day.sunlight().y;
+        last_share = share;
+        last_on_level = on_level;
     }
     CHECK(warmth(under(2.0).haze_away()) > warmth(under(35.0).haze_away()) + 0.3F);
     CHECK(under(2.0).haze_away().y < under(35.0).haze_away().y);
+}
+
+TEST_CASE("a low sun leaves light on level ground, blue in the shade, and is warm itself") {
+    for (const double elevation_deg : {12.0, 5.0, 1.5}) {
+        INFO(elevation_deg);
+        const Daylight day = under(elevation_deg);
+        CHECK(day.ambient().y + day.sunlight().y * static_cast<float>(day.to_sun().z) > 0.58F);
+        CHECK(warmth(day.ambient()) < 1.0F);
+        CHECK(warmth(day.sunlight()) > 1.2F);
+    }
+}
+
+TEST_CASE("a low sun's sky is blue overhead, warm below the sun, and nowhere green or lilac") {
+    for (const double elevation_deg : {5.0, 3.0, 1.5, 0.0}) {
+        const Daylight day = under(elevation_deg);
+        CHECK(warmth(day.sky({0.0, 0.0, 1.0})) < 0.7F);
+        CHECK(warmth(day.sky({day.horizontal_to_sun(), 0.0})) > 1.15F);
+        for (int i = 0; i < 400; ++i) {
+            const double up = rad_from_deg(4.5 * (i % 20));
+            const double around = 2.0 * pi * i / 400.0;
+            const glm::vec3 colour =
+                day.sky({std::cos(up) * std::sin(around), std::cos(up) * std::cos(around), std::sin(up)});
+            INFO(elevation_deg << " degrees: " << colour.x << ", " << colour.y << ", " << colour.z);
+            CHECK(colour.y < std::max(colour.x, colour.z) + 0.01F);
+            CHECK(colour.y > std::min(colour.x, colour.z) - 0.02F);
+        }
+    }
+}
+
+TEST_CASE("the sun's path on water lies below the sun and is wide enough for triangles of 70 pixels") {
+    const glm::vec3 black(0.0F);
+    for (const double elevation_deg : {50.0, 30.0, 12.0, 5.0}) {
+        INFO(elevation_deg);
+        const Daylight day = under(elevation_deg);
+        const WaterReflection water(day);
+        const auto brightness = [&](double beside_rad) {
+            const double azimuth = 1.0 + beside_rad;
+            const double level = std::cos(rad_from_deg(elevation_deg));
+            return water
+                .shaded_colour(black,
+                    {level * std::sin(azimuth), level * std::cos(azimuth), -std::sin(rad_from_deg(elevation_deg))})
+                .x;
+        };
+        CHECK(brightness(0.0) > brightness(0.2));
+        CHECK(brightness(0.2) > brightness(0.9));
+        CHECK(brightness(0.2) - brightness(0.9) > 0.25F * (brightness(0.0) - brightness(0.9)));
+    }
 }
 
 TEST_CASE("all colours are display values for every sun and direction") {

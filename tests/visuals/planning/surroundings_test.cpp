@@ -126,6 +126,13 @@ TEST_CASE("below the horizon the plain fades into the haze with distance") {
     CHECK(last < 255 * 3 / 3);
 }
 
+TEST_CASE("below the horizon of an eye under the plain there is land that fades into the haze") {
+    Sky sky(sun_at(90.0, 35.0));
+    const TriangleDraw draw = sky.around({-300.0, 5000.0, {0.0F, 0.0F, 0.0F}}, {{1.0F, 1.0F, 1.0F}, 20000.0F});
+    CHECK(brightness(draw.vertices[std::size_t{14} * 36].colour) > 0.9 * 765.0);
+    CHECK(brightness(draw.vertices[std::size_t{20} * 36].colour) < 0.5 * 765.0);
+}
+
 TEST_CASE("past the land around a map the plain begins where that land ends") {
     visuals::nature::Backdrop land;
     land.vertices = {{{-30000.0, -20000.0, 0.0}, {}, 0.0F}, {{30000.0, 20000.0, 0.0}, {}, 0.0F}};
