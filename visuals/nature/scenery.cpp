@@ -16,6 +16,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 #include <utility>
@@ -30,13 +31,16 @@ constexpr double max_reach_m = 900.0;
 constexpr double max_reach_cells = 30.0;
 constexpr double min_cell_m = 15.0; ///< denser ground bears something in some cells only
 constexpr float min_radius_m = 1.2F;
-constexpr float max_height_m = 17.0F;           ///< of all things
-constexpr float max_fineness = 1.9F;            ///< of plants where few trees are near
-constexpr float max_crowding = 3.0F;            ///< of trees in view, over those all around
-constexpr double crowd_reach_m = 250.0;         ///< from the eye
-constexpr float house_circle_m = 4.0F;          ///< no house where less fits
-constexpr float first_growth_ratio = 0.28F;     ///< of the reach: all things have grown by then
-constexpr glm::vec2 shadow_px(45.0F, 80.0F);    ///< things look so high where their shadows begin and are whole
+constexpr float max_height_m = 17.0F;        ///< of all things
+constexpr float max_fineness = 1.9F;         ///< of plants where few trees are near
+constexpr float max_crowding = 3.0F;         ///< of trees in view, over those all around
+constexpr double crowd_reach_m = 250.0;      ///< from the eye
+constexpr float house_circle_m = 4.0F;       ///< no house where less fits
+constexpr float first_growth_ratio = 0.28F;  ///< of the reach: all things have grown by then
+constexpr glm::vec2 shadow_px(45.0F, 80.0F); ///< things look so high where their shadows begin and are whole
+constexpr glm::vec2 rim_px(90.0F, 200.0F);   ///< and so high where a soft rim begins and is whole
+constexpr float conifer_taper = 0.5F;
+constexpr float layer_part = 0.125F;            ///< of a layer: from one shadow to the next above it
 constexpr float shadow_radius_m = 5.0F;         ///< of most of them
 constexpr float shadow_margin_m = 45.0F;        ///< beyond the picture, where things still cast shadows into it
 constexpr float min_full_px = 3.0F;             ///< things that would look lower have not wholly grown
@@ -96,7 +100,7 @@ public:
                         ? 1.0F / std::clamp(std::sqrt(max_crowding * share_of_trees()), 1.0F / max_fineness, 1.0F)
                         : 1.0F;
         shadow_reach_m_ = 0.0F;
-        if (ground_.has_shadows && view.order == terrain::PaintOrder::BackToFront && shadows_.are_cast()) {
+        if (ground_.has_shadows && shadows_.are_cast()) {
             shadow_reach_m_ = std::min(max_height_m * view.focal_px / shadow_px.x, static_cast<float>(view_reach_m_));
         }
     }
@@ -162,7 +166,12 @@ public:
 
     void add_shadows(const std::array<models::ColourVertex, 3>& part, const StandingTriangles& to) override {
         if (casters_.empty() || !shadows_.begin(part)) { return; }
-        for (const ShadowCaster& caster : casters_) { shadows_.add(caster, to); }
+        // Rims are painted first, the darkest shadows last. By depth each is a part of a layer above the next.
+        auto above = static_cast<float>(2 * casters_.size());
+        const bool by_depth = view_.order == terrain::PaintOrder::FrontToBack;
+        const auto scale = [&] { return by_depth ? depth_offset_factor(1.0F + layer_part * --above) : 1.0F; };
+        for (const ShadowCaster& caster : casters_) { shadows_.add(caster, scale(), to); }
+        for (const ShadowCaster& caster : casters_) { shadows_.add_rim(caster, scale(), to); }
     }
 
 private:
@@ -354,11 +363,14 @@ private:
             place_quarter(quarter, {glm::vec3(centre_m, ground_m), slope}, shadow_margin_m);
         });
         for (const PlacedItem& one : placed_items_) {
-            const float strength = (one.height_px - shadow_px.x) / (shadow_px.y - shadow_px.x);
-            const ShadowCaster caster{
-                one.anchor.at_m, one.radius_m, one.height_m, std::min(strength, 1.0F) * sun_of(one)};
-            if (strength > 0.0F && shadows_.may_fall_on_triangle(caster)) { casters_.push_back(caster); }
+            const float strength = std::min((one.height_px - shadow_px.x) / (shadow_px.y - shadow_px.x), 1.0F);
+            const float near = std::clamp((one.height_px - rim_px.x) / (rim_px.y - rim_px.x), 0.0F, 1.0F);
+            if (strength <= 0.0F) { continue; }
+            const ShadowCaster caster{one.anchor.at_m, one.radius_m, one.height_m, strength * sun_of(one),
+                one.item.kind == SceneryKind::Conifer ? conifer_taper : 0.0F, near};
+            if (shadows_.may_fall_on_triangle(caster)) { casters_.push_back(caster); }
         }
+        std::ranges::sort(casters_, std::ranges::greater(), &ShadowCaster::strength);
     }
 
     /// Places what stands in a quarter, in view or no farther than a margin beyond. `centre`: of the quarter.
