@@ -25,13 +25,14 @@ constexpr float full_trunk_px = 90.0F; ///< ... and have the whole trunk below t
 /// Where a level of the crown begins, and where its vertices have wholly come.
 constexpr std::array<glm::vec2, Icosphere::levels> level_px{
     glm::vec2(0.0F), glm::vec2(70.0F, 110.0F), glm::vec2(200.0F, 330.0F)};
-constexpr float full_contrast_px = 80.0F;
+constexpr float full_contrast_px = 64.0F;
 constexpr float min_contrast = 0.35F;
 /// Smaller plants take on their ground's colour, of which they have the share `max_ground_share` in the end.
 constexpr glm::vec2 ground_colour_px(28.0F, 6.0F);
 constexpr float max_ground_share = 0.5F;
 
 constexpr float lowest_outline = 0.2F;
+constexpr float max_slope_lowest = 0.22F;         ///< of crowns, over the plant's height
 constexpr std::array trunk_radii{0.075F, 0.085F}; ///< of trees, in those of the plant
 constexpr glm::vec3 bark(0.23F, 0.19F, 0.13F);
 
@@ -39,11 +40,13 @@ constexpr glm::vec3 bark(0.23F, 0.19F, 0.13F);
 constexpr std::array ground_colours{
     glm::vec3(0.165F, 0.265F, 0.115F), glm::vec3(0.125F, 0.22F, 0.115F), glm::vec3(0.36F, 0.36F, 0.20F)};
 
+/// How far the ground at the edge of the plant's circle rises over its foot at most.
+float rise_m(const Plant& plant) { return glm::length(plant.anchor.slope) * plant.radius_m; }
+
 /// The share of its ground's slope that a plant has so that what lies from `lowest_m` over its foot on stays above the
 /// ground.
 float lean_of(const Plant& plant, float lowest_m) {
-    const float rise_m = glm::length(plant.anchor.slope) * plant.radius_m;
-    return rise_m > lowest_m ? 1.0F - lowest_m / rise_m : 0.0F;
+    return rise_m(plant) > lowest_m ? 1.0F - lowest_m / rise_m(plant) : 0.0F;
 }
 
 constexpr std::uint32_t no_vertex = ~std::uint32_t{0};
@@ -193,7 +196,10 @@ void PlantMesher::add(const Plant& plant, StandingMesh& to) {
                                  ? TieredCrown::lowest
                                  : species_[static_cast<std::size_t>(plant.kind)].crowns[variant_of(bits)].lowest;
     const float grown = std::clamp((plant.height_px - bare_trunk_px) / (full_trunk_px - bare_trunk_px), 0.0F, 1.0F);
-    const float lowest = std::min(own_lowest, glm::mix(0.03F, own_lowest, grown));
+    float lowest = std::min(own_lowest, glm::mix(0.03F, own_lowest, grown));
+    if (plant.kind != PlantKind::Shrub) { // crowns on slopes are higher up their trunks, and stand upright
+        lowest = std::max(lowest, std::min(max_slope_lowest, rise_m(plant) / plant.height_m));
+    }
     Placement placement;
     placement.turn = compass_directions[turn_of(bits)];
     placement.lean = lean_of(plant, lowest * plant.height_m);
@@ -269,7 +275,7 @@ void PlantMesher::add_round_outline(const Plant& plant, const Placement& placeme
     const Crown& crown = species.crowns[variant];
     const CrownLight& light = species.light[variant][turn_of(plant.random_bits)];
     const glm::vec3 leaf = leaf_of(plant);
-    const auto add = [&](const glm::vec3& way, float distance) {
+    const auto add = [&](const glm::vec3& way, float ragged) {
         glm::vec3 sum(0.0F); // radius, ambient light, sunlight
         float weight = 0.0F;
         for (std::size_t i = 0; i < Icosphere::vertex_counts[1]; ++i) {
@@ -280,7 +286,7 @@ void PlantMesher::add_round_outline(const Plant& plant, const Placement& placeme
         }
         sum /= weight;
         const glm::vec3 from_centre =
-            crown.within_room(way, sum.x) * distance * way * glm::vec3(1.0F, 1.0F, crown.half_height);
+            crown.within_room(way, sum.x * ragged) * way * glm::vec3(1.0F, 1.0F, crown.half_height);
         return to.add(placement.place_m(plant, glm::vec3(0.0F, 0.0F, crown.centre) + from_centre),
             lit_leaf(plant, leaf, {sum.y, sum.z}));
     };
@@ -290,9 +296,10 @@ void PlantMesher::add_round_outline(const Plant& plant, const Placement& placeme
     const glm::vec3 up = glm::cross(to_eye, right);
     const std::uint32_t middle = add(to_eye, 0.0F);
     constexpr auto corners = static_cast<std::uint32_t>(side_directions.size());
-    for (const glm::vec2& side : side_directions) {
-        const glm::vec2 way = turned(side, half_side);
-        add(way.x * right + way.y * up, 1.0F);
+    for (std::uint32_t i = 0; i < corners; ++i) {
+        const glm::vec2 way = turned(side_directions[i], half_side);
+        const float random = share_of(scrambled(plant.random_bits + i), 8) - 0.5F;
+        add(way.x * right + way.y * up, 1.0F + 0.24F * random);
     }
     for (std::uint32_t i = 0; i < corners; ++i) {
         to.indices.insert(to.indices.end(), {middle, middle + 1 + i, middle + 1 + (i + 1) % corners});

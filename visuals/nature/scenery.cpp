@@ -180,6 +180,7 @@ private:
     struct SceneryItem {
         SceneryKind kind = SceneryKind::None;
         std::uint8_t sun = 255;
+        std::uint8_t edge = 0; ///< 255: at the edge of a wood
         std::uint32_t random_bits = 0;
     };
 
@@ -245,8 +246,11 @@ private:
                 sum += share;
                 kind = kind == SceneryKind::None && pick < sum ? own : kind;
             }
-            known = {place, {kind, static_cast<std::uint8_t>(std::clamp(density.sun, 0.0F, 1.0F) * 255.0F),
-                                scrambled(random_bits)}};
+            const auto byte = [](float share) {
+                return static_cast<std::uint8_t>(std::clamp(share, 0.0F, 1.0F) * 255.0F);
+            };
+            const float trees = density.conifers + density.broadleaves;
+            known = {place, {kind, byte(density.sun), byte(4.0F * trees * (1.0F - trees)), scrambled(random_bits)}};
         }
         return known.item;
     }
@@ -409,7 +413,9 @@ private:
         const float distance_m = glm::length(at_m);
         const float full_px_m = height_m * view_.focal_px / min_full_px;
         const float share = share_of(one.item.random_bits, 0);
-        const float far_share = one.item.kind == SceneryKind::House ? share : share * share; // few plants are far
+        // Few plants are far, most of them at the edges of woods.
+        const float edge = one.item.kind == SceneryKind::House ? 1.0F : static_cast<float>(one.item.edge) / 255.0F;
+        const float far_share = share * glm::mix(share, 1.0F, edge);
         const float begins_m =
             std::min(static_cast<float>(view_reach_m_) * (first_growth_ratio + (1.0F - first_growth_ratio) * far_share),
                 full_px_m * (0.8F + 0.4F * share));
