@@ -19,16 +19,16 @@ namespace {
 /// Smaller ones are a polygon that faces the eye: conifers, other plants of few corners and those of more corners.
 constexpr float conifer_outline_px = 34.0F;
 constexpr float outline_px = 24.0F;
-constexpr float round_outline_px = 58.0F;
+constexpr float round_outline_px = 70.0F;
 constexpr float bare_trunk_px = 36.0F; ///< crowns of this size reach down to the ground ...
 constexpr float full_trunk_px = 90.0F; ///< ... and have the whole trunk below them from this one on
 /// Where a level of the crown begins, and where its vertices have wholly come.
 constexpr std::array<glm::vec2, Icosphere::levels> level_px{
     glm::vec2(0.0F), glm::vec2(70.0F, 110.0F), glm::vec2(200.0F, 330.0F)};
-constexpr float full_contrast_px = 64.0F;
+constexpr float full_contrast_px = 90.0F;
 constexpr float min_contrast = 0.35F;
 /// Smaller plants take on their ground's colour, of which they have the share `max_ground_share` in the end.
-constexpr glm::vec2 ground_colour_px(28.0F, 6.0F);
+constexpr glm::vec2 ground_colour_px(40.0F, 6.0F);
 constexpr float max_ground_share = 0.5F;
 
 constexpr float lowest_outline = 0.2F;
@@ -99,7 +99,7 @@ glm::vec3 PlantMesher::lit(const Plant& plant, const glm::vec3& own, const Light
 
 /// Each plant has a lightness and a hue of its own.
 glm::vec3 PlantMesher::leaf_of(const Plant& plant) const {
-    constexpr float lightness = 0.36F; // from the darkest to the lightest
+    constexpr float lightness = 0.30F; // from the darkest to the lightest
     constexpr glm::vec3 hue(0.34F, 0.06F, -0.24F);
     const std::uint32_t bits = scrambled(plant.random_bits);
     return species_[static_cast<std::size_t>(plant.kind)].leaf * (1.0F + lightness * (share_of(bits, 8) - 0.5F)) *
@@ -269,6 +269,7 @@ void PlantMesher::add_crown(const Plant& plant, const Placement& placement, Stan
 
 /// A polygon across the line of sight through the crown's centre, with corners on the crown's surface.
 void PlantMesher::add_round_outline(const Plant& plant, const Placement& placement, StandingMesh& to) const {
+    const Icosphere& sphere = icosphere();
     constexpr float min_cosine = 0.84F; // the way to vertices of the icosphere among which means are taken
     const Species& species = species_[static_cast<std::size_t>(plant.kind)];
     const std::size_t variant = variant_of(plant.random_bits);
@@ -279,7 +280,7 @@ void PlantMesher::add_round_outline(const Plant& plant, const Placement& placeme
         glm::vec3 sum(0.0F); // radius, ambient light, sunlight
         float weight = 0.0F;
         for (std::size_t i = 0; i < Icosphere::vertex_counts[1]; ++i) {
-            const float near = glm::dot(icosphere().directions[i], way) - min_cosine;
+            const float near = glm::dot(sphere.directions[i], way) - min_cosine;
             if (near <= 0.0F) { continue; }
             sum += near * near * glm::vec3(crown.vertices[i].radius, light[i].ambient, light[i].sun);
             weight += near * near;

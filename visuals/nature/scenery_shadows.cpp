@@ -55,15 +55,19 @@ bool SceneryShadows::begin(const std::array<models::ColourVertex, 3>& triangle) 
 }
 
 void SceneryShadows::cut(Outline& outline, const glm::vec2& from_m, const glm::vec2& inwards) {
-    Outline kept;
+    std::array<float, corners + 3> in_m{};
+    std::size_t inside = 0;
     for (std::size_t i = 0; i < outline.count; ++i) {
-        const glm::vec3& a = outline.at_m[i];
-        const glm::vec3& b = outline.at_m[i + 1 < outline.count ? i + 1 : 0];
-        const float a_in = glm::dot(inwards, glm::vec2(a) - from_m);
-        const float b_in = glm::dot(inwards, glm::vec2(b) - from_m);
-        if (a_in >= 0.0F) { kept.at_m[kept.count++] = a; }
-        if ((a_in > 0.0F && b_in < 0.0F) || (a_in < 0.0F && b_in > 0.0F)) {
-            kept.at_m[kept.count++] = glm::mix(a, b, a_in / (a_in - b_in));
+        in_m[i] = glm::dot(inwards, glm::vec2(outline.at_m[i]) - from_m);
+        inside += in_m[i] >= 0.0F ? 1U : 0U;
+    }
+    if (inside == outline.count) { return; }
+    Outline kept;
+    for (std::size_t i = 0; inside > 0 && i < outline.count; ++i) {
+        const std::size_t next = i + 1 < outline.count ? i + 1 : 0;
+        if (in_m[i] >= 0.0F) { kept.at_m[kept.count++] = outline.at_m[i]; }
+        if ((in_m[i] > 0.0F && in_m[next] < 0.0F) || (in_m[i] < 0.0F && in_m[next] > 0.0F)) {
+            kept.at_m[kept.count++] = glm::mix(outline.at_m[i], outline.at_m[next], in_m[i] / (in_m[i] - in_m[next]));
         }
     }
     outline = kept;
