@@ -19,6 +19,7 @@ namespace {
 /// Smaller ones are a polygon that faces the eye: conifers, other plants of few corners and those of more corners.
 constexpr float conifer_outline_px = 34.0F;
 constexpr float outline_px = 24.0F;
+constexpr float triangle_px = 20.0F; ///< conifers that look lower have three corners from the side
 constexpr float round_outline_px = 70.0F;
 constexpr float bare_trunk_px = 36.0F; ///< crowns of this size reach down to the ground ...
 constexpr float full_trunk_px = 90.0F; ///< ... and have the whole trunk below them from this one on
@@ -420,8 +421,9 @@ void PlantMesher::add_outline(const Plant& plant, StandingMesh& to) const {
     const bool is_conifer = plant.kind == PlantKind::Conifer;
     const bool is_mirrored = (plant.random_bits >> 27U & 1U) != 0;
     const std::size_t corners = is_conifer ? pointed.size() : rounded.size();
+    const bool is_triangle = is_conifer && plant.height_px < triangle_px && level > 0.9F;
     const auto first = static_cast<std::uint32_t>(to.vertices.size());
-    for (std::size_t i = 0; i < corners; ++i) {
+    for (std::size_t i = 0; i < corners; i += is_triangle ? 2 : 1) {
         glm::vec2 at;
         if (is_conifer) {
             at = glm::mix(pentagon[i], pointed[i], level * level);
@@ -435,8 +437,8 @@ void PlantMesher::add_outline(const Plant& plant, StandingMesh& to) const {
         const Light light = light_on(0.75F * out + 0.66F * to_eye, 0.85F + 0.10F * out.z);
         to.add(foot_m + glm::vec3(off_m, up_m), lit_leaf(plant, leaf, light));
     }
-    for (std::uint32_t i = 2; i < corners; ++i) {
-        to.indices.insert(to.indices.end(), {first, first + i - 1, first + i});
+    for (std::uint32_t i = first + 2; i < to.vertices.size(); ++i) {
+        to.indices.insert(to.indices.end(), {first, i - 1, i});
     }
 }
 

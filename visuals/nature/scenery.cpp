@@ -36,7 +36,7 @@ constexpr float max_fineness = 1.5F;         ///< of plants where few trees are 
 constexpr float max_crowding = 3.0F;         ///< of trees in view, over those all around
 constexpr double crowd_reach_m = 250.0;      ///< from the eye
 constexpr float house_circle_m = 4.0F;       ///< no house where less fits
-constexpr float first_growth_ratio = 0.28F;  ///< of the reach: all things have grown by then
+constexpr float first_growth_ratio = 0.34F;  ///< of the reach: all things have grown by then
 constexpr glm::vec2 shadow_px(45.0F, 80.0F); ///< things look so high where their shadows begin and are whole
 constexpr glm::vec2 rim_px(120.0F, 240.0F);   ///< and so high where a soft rim begins and is whole
 constexpr float conifer_taper = 0.5F;
