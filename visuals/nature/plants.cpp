@@ -25,7 +25,7 @@ constexpr float bare_trunk_px = 36.0F; ///< crowns of this size reach down to th
 constexpr float full_trunk_px = 90.0F; ///< ... and have the whole trunk below them from this one on
 /// Where a level of the crown begins, and where its vertices have wholly come.
 constexpr std::array<glm::vec2, Icosphere::levels> level_px{
-    glm::vec2(0.0F), glm::vec2(70.0F, 110.0F), glm::vec2(200.0F, 330.0F)};
+    glm::vec2(0.0F), glm::vec2(70.0F, 110.0F), glm::vec2(150.0F, 260.0F)};
 constexpr float full_contrast_px = 90.0F;
 constexpr float min_contrast = 0.35F;
 /// Smaller plants take on their ground's colour, of which they have the share `max_ground_share` in the end.
@@ -39,7 +39,7 @@ constexpr glm::vec3 bark(0.23F, 0.19F, 0.13F);
 
 /// The colours of the ground that bears them, which its plants have in the mean.
 constexpr std::array ground_colours{
-    glm::vec3(0.165F, 0.265F, 0.115F), glm::vec3(0.125F, 0.22F, 0.115F), glm::vec3(0.36F, 0.36F, 0.20F)};
+    glm::vec3(0.165F, 0.265F, 0.115F), glm::vec3(0.125F, 0.22F, 0.115F), glm::vec3(0.25F, 0.31F, 0.14F)};
 
 /// How far the ground at the edge of the plant's circle rises over its foot at most.
 float rise_m(const Plant& plant) { return glm::length(plant.anchor.slope) * plant.radius_m; }

@@ -55,19 +55,15 @@ bool SceneryShadows::begin(const std::array<models::ColourVertex, 3>& triangle) 
 }
 
 void SceneryShadows::cut(Outline& outline, const glm::vec2& from_m, const glm::vec2& inwards) {
-    std::array<float, corners + 3> in_m{};
-    std::size_t inside = 0;
-    for (std::size_t i = 0; i < outline.count; ++i) {
-        in_m[i] = glm::dot(inwards, glm::vec2(outline.at_m[i]) - from_m);
-        inside += in_m[i] >= 0.0F ? 1U : 0U;
-    }
-    if (inside == outline.count) { return; }
     Outline kept;
-    for (std::size_t i = 0; inside > 0 && i < outline.count; ++i) {
-        const std::size_t next = i + 1 < outline.count ? i + 1 : 0;
-        if (in_m[i] >= 0.0F) { kept.at_m[kept.count++] = outline.at_m[i]; }
-        if ((in_m[i] > 0.0F && in_m[next] < 0.0F) || (in_m[i] < 0.0F && in_m[next] > 0.0F)) {
-            kept.at_m[kept.count++] = glm::mix(outline.at_m[i], outline.at_m[next], in_m[i] / (in_m[i] - in_m[next]));
+    for (std::size_t i = 0; i < outline.count; ++i) {
+        const glm::vec3& a = outline.at_m[i];
+        const glm::vec3& b = outline.at_m[i + 1 < outline.count ? i + 1 : 0];
+        const float a_in = glm::dot(inwards, glm::vec2(a) - from_m);
+        const float b_in = glm::dot(inwards, glm::vec2(b) - from_m);
+        if (a_in >= 0.0F) { kept.at_m[kept.count++] = a; }
+        if ((a_in > 0.0F && b_in < 0.0F) || (a_in < 0.0F && b_in > 0.0F)) {
+            kept.at_m[kept.count++] = glm::mix(a, b, a_in / (a_in - b_in));
         }
     }
     outline = kept;
@@ -94,36 +90,59 @@ std::optional<SceneryShadows::Ellipse> SceneryShadows::shadow_of(const ShadowCas
     return ellipse;
 }
 
+SceneryShadows::Ring SceneryShadows::ring_of(
+    const ShadowCaster& caster, const Ellipse& ellipse, float size, float strength) const {
+    Ring ring;
+    for (std::size_t i = 0; i < corners; ++i) {
+        const glm::vec2 at_m = ellipse.place_m(corner_of(i, caster.nearness) * size);
+        ring[i].at_m = glm::vec3(at_m, strength);
+        for (unsigned side = 0; side < 3; ++side) {
+            if (ellipse.crosses[side] &&
+                glm::dot(inwards_[side], at_m - glm::vec2(triangle_[side].position_m)) < 0.0F) {
+                ring[i].outside |= 1U << side;
+            }
+        }
+    }
+    return ring;
+}
+
 void SceneryShadows::add(const ShadowCaster& caster, float scale, const StandingTriangles& to) const {
     const std::optional<Ellipse> ellipse = shadow_of(caster);
     if (!ellipse) { return; }
-    Outline outline;
-    for (std::size_t i = 0; i<corners; i += caster.nearness> 0.0F ? 1 : 2) {
-        const glm::vec2 at = corner_of(i, caster.nearness) * (1.0F - rim * caster.nearness);
-        outline.at_m[outline.count++] = glm::vec3(ellipse->place_m(at), caster.strength);
+    Ring ring = ring_of(caster, *ellipse, 1.0F - rim * caster.nearness, caster.strength);
+    if (caster.nearness > 0.0F) {
+        add_part(ring, scale, to);
+        return;
     }
-    add_part(outline, *ellipse, scale, to);
+    for (std::size_t i = 1; i < corners / 2; ++i) { ring[i] = ring[2 * i]; }
+    add_part(std::span(ring).first<corners / 2>(), scale, to);
 }
 
 void SceneryShadows::add_rim(const ShadowCaster& caster, float scale, const StandingTriangles& to) const {
     if (caster.nearness <= 0.0F) { return; }
     const std::optional<Ellipse> ellipse = shadow_of(caster);
     if (!ellipse) { return; }
-    const auto place_m = [&](std::size_t corner, float side) {
-        const glm::vec2 at = corner_of(corner % corners, caster.nearness) * (1.0F + side * rim * caster.nearness);
-        return glm::vec3(ellipse->place_m(at), side < 0.0F ? caster.strength : 0.0F);
-    };
+    const Ring inner = ring_of(caster, *ellipse, 1.0F - rim * caster.nearness, caster.strength);
+    const Ring outer = ring_of(caster, *ellipse, 1.0F + rim * caster.nearness, 0.0F);
     for (std::size_t i = 0; i < corners; ++i) {
-        Outline outline{{place_m(i, -1.0F), place_m(i, 1.0F), place_m(i + 1, 1.0F), place_m(i + 1, -1.0F)}, 4};
-        add_part(outline, *ellipse, scale, to);
+        const std::size_t next = (i + 1) % corners;
+        add_part(std::array{inner[i], outer[i], outer[next], inner[next]}, scale, to);
     }
 }
 
-/// Cuts a polygon to the triangle and appends it.
-void SceneryShadows::add_part(
-    Outline& outline, const Ellipse& ellipse, float scale, const StandingTriangles& to) const {
-    for (std::size_t i = 0; i < 3; ++i) {
-        if (ellipse.crosses[i]) { cut(outline, glm::vec2(triangle_[i].position_m), inwards_[i]); }
+/// Cuts a convex polygon to the triangle and appends it.
+void SceneryShadows::add_part(std::span<const Corner> polygon, float scale, const StandingTriangles& to) const {
+    unsigned all_outside = ~0U;
+    unsigned any_outside = 0;
+    Outline outline;
+    for (const Corner& corner : polygon) {
+        all_outside &= corner.outside;
+        any_outside |= corner.outside;
+        outline.at_m[outline.count++] = corner.at_m;
+    }
+    if (all_outside != 0) { return; }
+    for (unsigned side = 0; side < 3; ++side) {
+        if ((any_outside >> side & 1U) != 0) { cut(outline, glm::vec2(triangle_[side].position_m), inwards_[side]); }
     }
     if (outline.count < 3) { return; }
     const auto& [a, b, c] = triangle_;

@@ -11,6 +11,7 @@
 #include <array>
 #include <cstddef>
 #include <optional>
+#include <span>
 
 namespace octant::visuals::nature {
 
@@ -57,7 +58,16 @@ private:
     static constexpr float max_length = 2.5F;      ///< of a shadow, over its caster's height
     static constexpr std::size_t corners = 16;
 
-    /// A convex polygon on the plan with the shadow's strength at each corner; each of three cuts adds a corner.
+    /// A corner of a shadow: its place on the plan and the shadow's strength, and beyond which sides of the triangle it
+    /// lies, a bit for each.
+    struct Corner {
+        glm::vec3 at_m{0.0F};
+        unsigned outside = 0;
+    };
+
+    using Ring = std::array<Corner, corners>;
+
+    /// A convex polygon of such corners; each of three cuts adds one.
     struct Outline {
         std::array<glm::vec3, corners + 3> at_m{};
         std::size_t count = 0;
@@ -79,7 +89,8 @@ private:
 
     std::optional<Ellipse> shadow_of(const ShadowCaster& caster) const;
     static void cut(Outline& outline, const glm::vec2& from_m, const glm::vec2& inwards);
-    void add_part(Outline& outline, const Ellipse& ellipse, float scale, const StandingTriangles& to) const;
+    Ring ring_of(const ShadowCaster& caster, const Ellipse& ellipse, float size, float strength) const;
+    void add_part(std::span<const Corner> polygon, float scale, const StandingTriangles& to) const;
 
     glm::vec3 to_sun_;
     float level_;       ///< cosine of the sun's elevation
