@@ -136,8 +136,8 @@ SurfacePoint surface_of(const Clumps& clumps, const glm::vec3& way) {
             surface.normal = glm::normalize((exit * way - ball.centre) / ball.radius + 0.6F * way);
         }
     }
-    surface.openness =
-        glm::smoothstep(0.58F, 0.98F, surface.radius) * (0.62F + 0.38F * glm::smoothstep(-1.0F, 0.5F, way.z));
+    surface.openness = (0.25F + 0.75F * glm::smoothstep(0.58F, 0.98F, surface.radius)) *
+                       (0.62F + 0.38F * glm::smoothstep(-1.0F, 0.5F, way.z));
     return surface;
 }
 

@@ -96,6 +96,9 @@ public:
     /// Loading work. All variants differ.
     explicit TieredCrown(std::uint32_t variant);
 
+    /// From one tier to the next.
+    static std::size_t tiers_each(std::size_t level) { return level + 1 < Icosphere::levels ? 2 : 1; }
+
     /// Whether a bough of a tier ends at a side: boughs stand above gaps.
     static bool is_bough_end(std::size_t tier, std::size_t side) { return (tier + tier / 2 + side) % 2 == 0; }
 

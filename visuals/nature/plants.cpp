@@ -309,69 +309,77 @@ void PlantMesher::add_round_outline(const Plant& plant, const Placement& placeme
 }
 
 void PlantMesher::add_tiers(const Plant& plant, const Placement& placement, StandingMesh& to) const {
-    constexpr std::size_t sides = TieredCrown::sides;
-    constexpr float underside = 0.35F; // openness
-    const TieredCrown& crown = tiered_[variant_of(plant.random_bits)];
-    const auto [level, come] = fineness_of(plant);
-    // At level 0 tiers are convex: any order is right.
-    std::array<std::pair<float, std::size_t>, sides> order;
-    for (std::size_t side = 0; side < sides; ++side) {
-        const glm::vec2 middle = side_directions[side] + side_directions[(side + 1) % sides];
-        order[side] = {glm::dot(middle, glm::vec2(placement.eye)), side};
+    std::array<std::pair<float, std::size_t>, TieredCrown::sides> nearness;
+    for (std::size_t side = 0; side < nearness.size(); ++side) {
+        const glm::vec2 middle = side_directions[side] + side_directions[(side + 1) % nearness.size()];
+        nearness[side] = {glm::dot(middle, glm::vec2(placement.eye)), side};
     }
-    std::ranges::sort(order, std::ranges::greater());
-    const glm::vec3 leaf = leaf_of(plant);
-    const glm::vec3 below = lit_leaf(plant, leaf, light_on(glm::vec3(0.0F, 0.0F, -1.0F), underside));
-    const std::size_t tiers_each = level + 1 < Icosphere::levels ? 2 : 1;
-    const auto add_tier = [&, level = level, come = come](std::size_t tier) {
-        TierRing low;
-        TierRing high;
-        crown.find_tier(tier, level, come, low, high);
-        const float low_height = TieredCrown::heights[tier];
-        const bool is_last = tier + tiers_each >= TieredCrown::tiers;
-        const float high_height = is_last ? 1.0F : TieredCrown::heights[tier + tiers_each];
-        const bool eye_below = placement.eye.z < low_height;
-        std::array<std::uint32_t, sides> low_numbers;
-        std::array<std::uint32_t, sides> high_numbers;
-        low_numbers.fill(no_vertex);
-        high_numbers.fill(no_vertex);
-        const auto place_m = [&](std::size_t side, const TierVertex& vertex, float height) {
-            return placement.place_m(plant, glm::vec3(vertex.radius * side_directions[side], height));
-        };
-        const auto number_of = [&](std::uint32_t& number, std::size_t side, const TierVertex& vertex, float height) {
-            if (number == no_vertex) {
-                const glm::vec3 out = out_of_side(turned(side_directions[side], placement.turn));
-                number = to.add(place_m(side, vertex, height), lit_leaf(plant, leaf, light_on(out, vertex.openness)));
-            }
-            return number;
-        };
-        const auto low_at = [&](std::size_t side) { return number_of(low_numbers[side], side, low[side], low_height); };
-        const auto high_at = [&](std::size_t side) {
-            return number_of(high_numbers[is_last ? 0 : side], side, high[side], high_height);
-        };
-        for (const auto& [nearness, side] : order) {
-            const std::size_t step = level == 0 ? 2 : 1;
-            if (step == 2 && !TieredCrown::is_bough_end(tier, side)) { continue; }
-            const std::size_t next = (side + step) % sides;
-            const glm::vec3 a_m = place_m(side, low[side], low_height);
-            const glm::vec3 b_m = place_m(next, low[next], low_height);
-            const glm::vec3 c_m = place_m(next, high[next], high_height);
-            const glm::vec3 d_m = place_m(side, high[side], high_height);
-            if (StandingMesh::faces_eye(a_m, b_m, c_m)) {
-                to.indices.insert(to.indices.end(), {low_at(side), low_at(next), high_at(next)});
-            }
-            if (!is_last && StandingMesh::faces_eye(a_m, c_m, d_m)) {
-                to.indices.insert(to.indices.end(), {low_at(side), high_at(next), high_at(side)});
-            }
-            if (eye_below) { to.face(std::array{place_m(0, {}, low_height), b_m, a_m}, below); }
-        }
-    };
+    std::ranges::sort(nearness, std::ranges::greater());
+    SideOrder order;
+    std::ranges::transform(nearness, order.begin(), [](const auto& side) { return side.second; });
+    const std::size_t step = TieredCrown::tiers_each(fineness_of(plant).level);
     std::size_t at_eye = 0;
-    while (at_eye + tiers_each < TieredCrown::tiers && placement.eye.z > TieredCrown::heights[at_eye + tiers_each]) {
-        at_eye += tiers_each;
+    while (at_eye + step < TieredCrown::tiers && placement.eye.z > TieredCrown::heights[at_eye + step]) {
+        at_eye += step;
     }
-    for (std::size_t tier = at_eye; tier < TieredCrown::tiers; tier += tiers_each) { add_tier(tier); }
-    for (std::size_t tier = at_eye; tier > 0;) { add_tier(tier -= tiers_each); }
+    for (std::size_t tier = at_eye; tier < TieredCrown::tiers; tier += step) {
+        add_tier(plant, placement, tier, order, to);
+    }
+    for (std::size_t tier = at_eye; tier > 0;) { add_tier(plant, placement, tier -= step, order, to); }
+}
+
+void PlantMesher::add_tier(
+    const Plant& plant, const Placement& placement, std::size_t tier, const SideOrder& order, StandingMesh& to) const {
+    constexpr float underside = 0.35F; // openness
+    const auto [level, come] = fineness_of(plant);
+    TierRing low;
+    TierRing high;
+    tiered_[variant_of(plant.random_bits)].find_tier(tier, level, come, low, high);
+    const std::size_t above = tier + TieredCrown::tiers_each(level);
+    const bool is_last = above >= TieredCrown::tiers;
+    const float low_height = TieredCrown::heights[tier];
+    const glm::vec3 leaf = leaf_of(plant);
+    struct Edge {
+        std::array<glm::vec3, TieredCrown::sides> at_m;
+        std::array<std::uint32_t, TieredCrown::sides> numbers;
+    };
+    const auto edge_of = [&](const TierRing& ring, float height) {
+        Edge edge;
+        for (std::size_t side = 0; side < ring.size(); ++side) {
+            edge.at_m[side] = placement.place_m(plant, glm::vec3(ring[side].radius * side_directions[side], height));
+        }
+        edge.numbers.fill(no_vertex);
+        return edge;
+    };
+    const auto number_of = [&](Edge& edge, const TierRing& ring, std::size_t side) {
+        if (edge.numbers[side] == no_vertex) {
+            const glm::vec3 out = out_of_side(turned(side_directions[side], placement.turn));
+            edge.numbers[side] = to.add(edge.at_m[side], lit_leaf(plant, leaf, light_on(out, ring[side].openness)));
+        }
+        return edge.numbers[side];
+    };
+    Edge lower = edge_of(low, low_height);
+    Edge upper = edge_of(high, is_last ? 1.0F : TieredCrown::heights[above]);
+    const glm::vec3 middle_m = placement.place_m(plant, glm::vec3(0.0F, 0.0F, low_height));
+    // At level 0 tiers are convex: any order is right.
+    const std::size_t step = level == 0 ? 2 : 1;
+    for (const std::size_t side : order) {
+        if (step == 2 && !TieredCrown::is_bough_end(tier, side)) { continue; }
+        const std::size_t next = (side + step) % TieredCrown::sides;
+        const std::size_t top = is_last ? 0 : next;
+        if (StandingMesh::faces_eye(lower.at_m[side], lower.at_m[next], upper.at_m[top])) {
+            to.indices.insert(to.indices.end(),
+                {number_of(lower, low, side), number_of(lower, low, next), number_of(upper, high, top)});
+        }
+        if (!is_last && StandingMesh::faces_eye(lower.at_m[side], upper.at_m[next], upper.at_m[side])) {
+            to.indices.insert(to.indices.end(),
+                {number_of(lower, low, side), number_of(upper, high, next), number_of(upper, high, side)});
+        }
+        if (placement.eye.z < low_height) {
+            to.face(std::array{middle_m, lower.at_m[next], lower.at_m[side]},
+                lit_leaf(plant, leaf, light_on(glm::vec3(0.0F, 0.0F, -1.0F), underside)));
+        }
+    }
 }
 
 /// A prism from the ground to the plane below the crown, which parts them for every eye.

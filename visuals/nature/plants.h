@@ -66,6 +66,8 @@ private:
         float come = 1.0F;
     };
 
+    using SideOrder = std::array<std::size_t, TieredCrown::sides>; ///< of a conifer, from near to far
+
     static Fineness fineness_of(const Plant& plant);
     Light light_on(const glm::vec3& normal, float openness) const;
     glm::vec3 lit(const Plant& plant, const glm::vec3& own, const Light& light) const;
@@ -75,6 +77,8 @@ private:
     void add_crown(const Plant& plant, const Placement& placement, StandingMesh& to);
     void add_round_outline(const Plant& plant, const Placement& placement, StandingMesh& to) const;
     void add_tiers(const Plant& plant, const Placement& placement, StandingMesh& to) const;
+    void add_tier(const Plant& plant, const Placement& placement, std::size_t tier, const SideOrder& order,
+        StandingMesh& to) const;
     void add_trunk(const Plant& plant, const Placement& placement, float lowest, StandingMesh& to) const;
     void add_outline(const Plant& plant, StandingMesh& to) const;
 
