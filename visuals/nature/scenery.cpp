@@ -171,10 +171,9 @@ public:
 
     void add_shadows(const std::array<models::ColourVertex, 3>& part, const StandingTriangles& to) override {
         if (casters_.empty() || !shadows_.begin(part)) { return; }
-        // Rims are painted first, the darkest shadows last. By depth each is a part of a layer above the next.
+        // Rims are painted first, the darkest shadows last. Each is a part of a layer above the one before.
         auto above = static_cast<float>(2 * casters_.size());
-        const bool by_depth = view_.order == terrain::PaintOrder::FrontToBack;
-        const auto scale = [&] { return by_depth ? depth_offset_factor(1.0F + layer_part * --above) : 1.0F; };
+        const auto scale = [&] { return depth_offset_factor(1.0F + layer_part * --above); };
         for (const ShadowCaster& caster : casters_) { shadows_.add(caster, scale(), to); }
         for (const ShadowCaster& caster : casters_) { shadows_.add_rim(caster, scale(), to); }
     }
