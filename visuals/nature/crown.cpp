@@ -119,9 +119,9 @@ Clumps make_clumps(Random& random) {
     Clumps clumps;
     for (std::size_t i = 0; i < base_vertices; ++i) {
         const glm::vec3 way = glm::normalize(icosphere().directions[i] + 0.55F * random.next_direction());
-        clumps[i] = {way * (0.44F + 0.14F * random.next()), 0.40F + 0.10F * random.next()};
+        clumps[i] = {way * (0.52F + 0.16F * random.next()), 0.34F + 0.10F * random.next()};
     }
-    clumps[base_vertices] = {glm::vec3(0.0F), 0.62F};
+    clumps[base_vertices] = {glm::vec3(0.0F), 0.60F};
     return clumps;
 }
 
@@ -136,47 +136,25 @@ SurfacePoint surface_of(const Clumps& clumps, const glm::vec3& way) {
             surface.normal = glm::normalize((exit * way - ball.centre) / ball.radius + 0.6F * way);
         }
     }
-    surface.openness =
-        glm::smoothstep(0.58F, 0.98F, surface.radius) * (0.62F + 0.38F * glm::smoothstep(-1.0F, 0.5F, way.z));
+    surface.openness = (0.25F + 0.75F * glm::smoothstep(0.58F, 0.98F, surface.radius)) *
+                       (0.62F + 0.38F * glm::smoothstep(-1.0F, 0.5F, way.z));
     return surface;
 }
 
-/// Tiers of boughs, wide at their lower edges, around a cone. `detail`: how far a vertex is in or out of the cone,
-/// 0..1.
-struct Tiers {
-    static constexpr float count = 5.0F;
-    static constexpr float centre = 0.40F;
-    static constexpr float half_height = 0.60F;
-    static constexpr float lowest = 0.13F;
-    std::array<glm::vec2, 8> turns; ///< of each tier's longest boughs
-    float raggedness = 0.15F;
-
-    SurfacePoint surface_of(const glm::vec3& way, float detail) const {
-        const float level = glm::length(glm::vec2(way));
-        const glm::vec2 level_way = level > 1e-3F ? glm::vec2(way) / level : glm::vec2(1.0F, 0.0F);
-        SurfacePoint surface{
-            0.0F, glm::normalize(glm::vec3(way.x, way.y, 0.45F * level + (way.z > 0.0F ? 1.0F : 0.5F) * way.z))};
-        for (int step = 1; step < 200; ++step) {
-            const float radius = 0.01F * static_cast<float>(step);
-            const float height = (centre + half_height * radius * way.z - lowest) / (1.0F - lowest);
-            if (height < 0.0F || height > 1.0F) { break; }
-            const float tiers_down = count * (1.0F - height);
-            const float tier = std::floor(tiers_down);
-            const float edge = glm::mix(0.85F, tiers_down - tier, detail);
-            // The cosine of five times the angle.
-            const float c = glm::dot(level_way, turns[static_cast<std::size_t>(tier)]);
-            const float ragged = 1.0F + raggedness * c * (5.0F + c * c * (16.0F * c * c - 20.0F));
-            const float narrower = (1.0F - height) * (1.0F + 0.35F * height);
-            if (radius * level > narrower * (0.60F + 0.40F * edge) * ragged + 0.012F) { break; }
-            surface.radius = radius;
-            surface.openness = (0.45F + 0.55F * edge) * (0.7F + 0.3F * height);
-        }
-        return surface;
-    }
-};
-
 /// The greatest distance of a vertex from the axis.
 constexpr float max_radius = 0.98F;
+constexpr float roughness = 0.26F; ///< of the leaves' surface, of its distance from the centre
+
+} // namespace
+
+float Crown::within_room(const glm::vec3& way, float radius) const {
+    const float level = glm::length(glm::vec2(way));
+    const float room = way.z < 0.0F ? centre - lowest : 1.0F - centre;
+    return std::min(
+        {radius, max_radius / std::max(level, 1e-3F), room / std::max(half_height * std::abs(way.z), 1e-3F)});
+}
+
+namespace {
 
 /// Places the vertices on their rays within the plant's circle and height.
 void place(Crown& crown, const std::array<SurfacePoint, Icosphere::vertex_counts[2]>& surface) {
@@ -184,15 +162,12 @@ void place(Crown& crown, const std::array<SurfacePoint, Icosphere::vertex_counts
     std::array<float, Icosphere::vertex_counts[2]> radii{};
     for (std::size_t i = 0; i < radii.size(); ++i) {
         const glm::vec3& way = sphere.directions[i];
-        const float level = glm::length(glm::vec2(way));
-        const float room = way.z < 0.0F ? crown.centre - crown.lowest : 1.0F - crown.centre;
-        radii[i] = std::min(surface[i].radius, max_radius / std::max(level, 1e-3F));
-        radii[i] = std::min(radii[i], room / std::max(crown.half_height * std::abs(way.z), 1e-3F));
+        radii[i] = crown.within_room(way, surface[i].radius);
         const glm::vec3 from_centre = radii[i] * way * glm::vec3(1.0F, 1.0F, crown.half_height);
         const auto& [a, b] = sphere.parents[i];
         const float on_chord = a == b ? 0.5F : radii[a] / (radii[a] + radii[b]);
-        crown.vertices[i] = {
-            glm::vec3(0.0F, 0.0F, crown.centre) + from_centre, surface[i].normal, surface[i].openness, on_chord};
+        crown.vertices[i] = {glm::vec3(0.0F, 0.0F, crown.centre) + from_centre, surface[i].normal, surface[i].openness,
+            radii[i], on_chord};
     }
 }
 
@@ -202,30 +177,22 @@ Crown make_crown(PlantKind kind, std::uint32_t variant) {
     Random random(16U * static_cast<std::uint32_t>(kind) + variant);
     std::array<SurfacePoint, Icosphere::vertex_counts[2]> surface;
     Crown crown;
-    if (kind == PlantKind::Conifer) {
-        Tiers tiers;
-        for (glm::vec2& turn : tiers.turns) { turn = glm::normalize(glm::vec2(random.next_direction())); }
-        tiers.raggedness = 0.10F + 0.10F * random.next();
-        for (std::size_t i = 0; i < surface.size(); ++i) {
-            const float detail = i < base_vertices ? 0.0F : i < Icosphere::vertex_counts[1] ? 0.75F : 1.0F;
-            surface[i] = tiers.surface_of(icosphere().directions[i], detail);
-        }
-        crown.centre = Tiers::centre;
-        crown.half_height = Tiers::half_height;
-        crown.lowest = Tiers::lowest;
-    } else {
-        const Clumps clumps = make_clumps(random);
-        float top = 0.0F;
-        for (std::size_t i = 0; i < surface.size(); ++i) {
-            surface[i] = surface_of(clumps, icosphere().directions[i]);
-            top = std::max(top, surface[i].radius * icosphere().directions[i].z);
-        }
-        const bool is_tree = kind == PlantKind::Broadleaf;
-        crown.lowest = is_tree ? 0.10F : 0.03F;
-        crown.centre = is_tree ? 0.48F : 0.35F;
-        if (is_tree) { surface[base_vertices - 1].radius *= 0.65F; } // the lowest: crowns are flat below
-        crown.half_height = (1.0F - crown.centre) / top;
+    const Clumps clumps = make_clumps(random);
+    float top = 0.0F;
+    for (std::size_t i = 0; i < surface.size(); ++i) {
+        const glm::vec3& way = icosphere().directions[i];
+        surface[i] = surface_of(clumps, way);
+        const float out = random.next() - 0.5F;
+        surface[i].radius *= 1.0F + roughness * out;
+        surface[i].openness *= 1.0F + 0.6F * out;
+        surface[i].normal = glm::normalize(surface[i].normal + roughness * random.next_direction());
+        top = std::max(top, surface[i].radius * way.z);
     }
+    const bool is_tree = kind == PlantKind::Broadleaf;
+    crown.lowest = is_tree ? 0.10F : 0.03F;
+    crown.centre = is_tree ? 0.48F : 0.35F;
+    if (is_tree) { surface[base_vertices - 1].radius *= 0.65F; } // the lowest: crowns are flat below
+    crown.half_height = (1.0F - crown.centre) / top;
     place(crown, surface);
     crown.lowest =
         std::ranges::min_element(crown.vertices, {}, [](const Crown::Vertex& vertex) { return vertex.at.z; })->at.z;
@@ -233,6 +200,97 @@ Crown make_crown(PlantKind kind, std::uint32_t variant) {
     surface[base_vertices - 1].radius = (crown.centre - crown.lowest) / crown.half_height;
     place(crown, surface);
     return crown;
+}
+
+namespace {
+
+/// The boughs of a tier end at every other side, long ones and short ones.
+void make_radii(Random& random, std::size_t tier, TierRing& ring) {
+    const float height = (TieredCrown::heights[tier] - TieredCrown::lowest) / (1.0F - TieredCrown::lowest);
+    const float whole = max_radius * (1.0F - height) * (1.0F + 0.30F * height);
+    const float open = 0.70F + 0.30F * height;
+    for (std::size_t side = 0; side < TieredCrown::sides; ++side) {
+        const bool is_end = TieredCrown::is_bough_end(tier, side);
+        ring[side].radius = whole * ((is_end ? 0.80F : 0.54F) + (is_end ? 0.20F : 0.06F) * random.next());
+        ring[side].openness = open * (is_end ? 1.0F : 0.72F);
+    }
+}
+
+float min_radius(const TierRing& ring) { return std::ranges::min_element(ring, {}, &TierVertex::radius)->radius; }
+
+/// The upper edge of a tier whose lower edge is `low` fits below the next one's lower edge.
+float top_share(const TierRing& low, const TierRing& next) {
+    constexpr float room = 0.85F;
+    return std::min(room * min_radius(next) / std::ranges::max_element(low, {}, &TierVertex::radius)->radius, 1.0F);
+}
+
+} // namespace
+
+TieredCrown::TieredCrown(std::uint32_t variant) {
+    Random random(16U * static_cast<std::uint32_t>(PlantKind::Conifer) + variant);
+    for (std::size_t tier = 0; tier < tiers; ++tier) { make_radii(random, tier, lower_[tier]); }
+    for (std::size_t tier = 0; tier + 1 < tiers; ++tier) {
+        upper_share_[tier] = top_share(lower_[tier], lower_[tier + 1]);
+    }
+    for (std::size_t tier = 0; tier + 2 < tiers; tier += 2) {
+        coarse_share_[tier] = top_share(lower_[tier], lower_[tier + 2]);
+    }
+}
+
+namespace {
+
+TierRing scaled(const TierRing& ring, float share) {
+    TierRing smaller = ring;
+    for (TierVertex& vertex : smaller) {
+        vertex.radius *= share;
+        vertex.openness *= TieredCrown::inner_openness + (1.0F - TieredCrown::inner_openness) * share;
+    }
+    return smaller;
+}
+
+TierRing mixed(const TierRing& one, const TierRing& other, float share_of_other) {
+    TierRing ring;
+    for (std::size_t side = 0; side < ring.size(); ++side) {
+        ring[side] = {glm::mix(one[side].radius, other[side].radius, share_of_other),
+            glm::mix(one[side].openness, other[side].openness, share_of_other)};
+    }
+    return ring;
+}
+
+/// A ring whose sides between the ends of boughs lie on the straight lines between those.
+TierRing without_gaps(const TierRing& ring, std::size_t tier) {
+    constexpr float cosine = 0.866025404F; // of a side
+    TierRing plain = ring;
+    for (std::size_t side = 0; side < ring.size(); ++side) {
+        if (TieredCrown::is_bough_end(tier, side)) { continue; }
+        const TierVertex& before = ring[(side + ring.size() - 1) % ring.size()];
+        const TierVertex& after = ring[(side + 1) % ring.size()];
+        plain[side] = {2.0F * cosine * before.radius * after.radius / (before.radius + after.radius),
+            0.5F * (before.openness + after.openness)};
+    }
+    return plain;
+}
+
+} // namespace
+
+void TieredCrown::find_tier(std::size_t tier, std::size_t level, float come, TierRing& low, TierRing& high) const {
+    const std::size_t coarse = tier / 2 * 2;
+    const TierRing& whole = lower_[coarse];
+    if (level < Icosphere::levels - 1) {
+        low = level == 0 ? without_gaps(whole, coarse) : mixed(without_gaps(whole, coarse), whole, come);
+        high = scaled(low, coarse_share_[coarse]);
+        return;
+    }
+    const float end = coarse + 2 < tiers ? heights[coarse + 2] : 1.0F;
+    const float middle = (heights[coarse + 1] - heights[coarse]) / (end - heights[coarse]);
+    const TierRing cut = scaled(whole, glm::mix(1.0F, coarse_share_[coarse], middle));
+    if (tier == coarse) {
+        low = whole;
+        high = mixed(cut, scaled(whole, upper_share_[tier]), come);
+    } else {
+        low = mixed(cut, lower_[tier], come);
+        high = mixed(scaled(whole, coarse_share_[coarse]), scaled(lower_[tier], upper_share_[tier]), come);
+    }
 }
 
 } // namespace octant::visuals::nature

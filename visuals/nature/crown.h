@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <tuple>
 #include <vector>
 
 namespace octant::visuals::nature {
@@ -51,6 +52,7 @@ struct Crown {
         glm::vec3 at{0.0F};     ///< east and north in radii of the plant, up in heights, from its foot
         glm::vec3 normal{0.0F}; ///< unit
         float openness = 1.0F;  ///< the share of light that leaves around it let through
+        float radius = 1.0F;    ///< on its ray, where the icosphere has 1
         /// Where the vertex's ray meets the straight line between its parents, as a share of the way from the first:
         /// there it changes nothing of the surface of the level before.
         float on_chord = 0.5F;
@@ -60,9 +62,54 @@ struct Crown {
     float centre = 0.5F;      ///< the height of that point
     float half_height = 0.5F; ///< of the icosphere when its radius is 1
     float lowest = 0.0F;      ///< No vertex lies lower.
+
+    /// The distance of a place on a ray, where the icosphere has 1, or less where the plant's circle and height end.
+    float within_room(const glm::vec3& way, float radius) const;
 };
 
-/// One of the crowns of a kind of plant; all of them differ. Loading work.
+/// One of the crowns of broad-leaved trees or shrubs; all of them differ. Loading work.
 Crown make_crown(PlantKind kind, std::uint32_t variant);
+
+/// A corner of an edge of a tier.
+struct TierVertex {
+    float radius = 0.0F;   ///< in radii of the plant
+    float openness = 1.0F; ///< the share of light that leaves around it let through
+};
+
+using TierRing = std::array<TierVertex, 12>;
+
+/// The crown of a conifer: tiers of boughs, one on another, each a cone cut off below the next. Levels 0 and 1 have
+/// three tiers, at level 0 without gaps between boughs; at level 2 each of them is parted into two.
+///
+/// Painting order: level planes part the tiers. Planes through the axis cut a tier into parts for each of its sides,
+/// and the same holds for them as for the cones of a Crown: the order by dot(middle of the side, eye), the greatest
+/// nearest.
+class TieredCrown {
+public:
+    static constexpr std::size_t sides = std::tuple_size_v<TierRing>;
+    static constexpr std::size_t tiers = 6;
+    static constexpr float lowest = 0.13F;
+    /// Of the tiers' lower edges, over the plant's.
+    static constexpr std::array<float, tiers> heights{lowest, 0.30F, 0.45F, 0.58F, 0.70F, 0.84F};
+    static constexpr float inner_openness = 0.35F; ///< at the trunk, over that at the ends of boughs
+
+    /// Loading work. All variants differ.
+    explicit TieredCrown(std::uint32_t variant);
+
+    /// From one tier to the next.
+    static std::size_t tiers_each(std::size_t level) { return level + 1 < Icosphere::levels ? 2 : 1; }
+
+    /// Whether a bough of a tier ends at a side: boughs stand above gaps.
+    static bool is_bough_end(std::size_t tier, std::size_t side) { return (tier + tier / 2 + side) % 2 == 0; }
+
+    /// Finds the edges of a tier, of which the upper one has shrunk to a point at the top. `come`: how far the vertices
+    /// of the level have come, 0..1. Levels 0 and 1 have even tiers only.
+    void find_tier(std::size_t tier, std::size_t level, float come, TierRing& low, TierRing& high) const;
+
+private:
+    std::array<TierRing, tiers> lower_{};
+    std::array<float, tiers> upper_share_{};  ///< the upper edge, over the lower one
+    std::array<float, tiers> coarse_share_{}; ///< the same of an even tier and the next one taken as one
+};
 
 } // namespace octant::visuals::nature

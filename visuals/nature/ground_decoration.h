@@ -60,6 +60,10 @@ struct GroundPatch {
     models::SurfaceClass surface = models::SurfaceClass::Road;
 };
 
+/// The scale factor towards the eye of what lies so many layers above the ground: for a depth buffer each layer is in
+/// front of the one below by 256 float steps, at the same pixels.
+constexpr float depth_offset_factor(float layers) { return 1.0F - layers * 0x1p-15F; }
+
 /// Lists to which what stands on the ground is appended.
 struct StandingTriangles {
     std::vector<models::ColourVertex>& vertices;

@@ -50,8 +50,9 @@ private:
     using CrownLight = std::array<Light, Icosphere::vertex_counts[Icosphere::levels - 1]>;
 
     struct Species {
+        /// Of broad-leaved trees and shrubs, and the light on them turned by so many eighths.
         std::array<Crown, variants> crowns;
-        std::array<std::array<CrownLight, turns>, variants> light; ///< on crowns turned by so many eighths
+        std::array<std::array<CrownLight, turns>, variants> light;
         Light mean;
         glm::vec3 leaf{0.0F}; ///< display values, before light falls on it
     };
@@ -59,16 +60,32 @@ private:
     /// How a plant's crown space lies around the eye.
     struct Placement;
 
+    /// The triangles of a crown: its level, and how far the vertices of that have come, 0..1.
+    struct Fineness {
+        std::size_t level = 0;
+        float come = 1.0F;
+    };
+
+    using SideOrder = std::array<std::size_t, TieredCrown::sides>; ///< of a conifer, from near to far
+
+    static Fineness fineness_of(const Plant& plant);
     Light light_on(const glm::vec3& normal, float openness) const;
     glm::vec3 lit(const Plant& plant, const glm::vec3& own, const Light& light) const;
+    glm::vec3 leaf_of(const Plant& plant) const;
+    glm::vec3 lit_leaf(const Plant& plant, const glm::vec3& leaf, const Light& light) const;
     Species make_species(PlantKind kind) const;
     void add_crown(const Plant& plant, const Placement& placement, StandingMesh& to);
-    void add_trunk(const Plant& plant, const Placement& placement, StandingMesh& to) const;
+    void add_round_outline(const Plant& plant, const Placement& placement, StandingMesh& to) const;
+    void add_tiers(const Plant& plant, const Placement& placement, StandingMesh& to) const;
+    void add_tier(const Plant& plant, const Placement& placement, std::size_t tier, const SideOrder& order,
+        StandingMesh& to) const;
+    void add_trunk(const Plant& plant, const Placement& placement, float lowest, StandingMesh& to) const;
     void add_outline(const Plant& plant, StandingMesh& to) const;
 
     glm::vec3 to_sun_;
     glm::vec3 ambient_;
     glm::vec3 sunlight_;
+    std::array<TieredCrown, variants> tiered_;
     std::array<Species, kinds> species_;
     // Of one crown.
     std::array<glm::vec3, Icosphere::vertex_counts[Icosphere::levels - 1]> places_m_{};

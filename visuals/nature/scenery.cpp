@@ -16,6 +16,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 #include <utility>
@@ -25,26 +26,30 @@ namespace octant::visuals::nature {
 
 namespace {
 
-constexpr std::size_t cache_size = std::size_t{1} << 15U;
+constexpr int cache_side = 64; ///< columns and rows of cells of which what stands there is kept: all in reach
 constexpr double max_reach_m = 900.0;
 constexpr double max_reach_cells = 30.0;
 constexpr double min_cell_m = 15.0; ///< denser ground bears something in some cells only
 constexpr float min_radius_m = 1.2F;
-constexpr float max_height_m = 17.0F;           ///< of all things
-constexpr float max_fineness = 1.9F;            ///< of plants where few trees are near
-constexpr float max_crowding = 3.0F;            ///< of trees in view, over those all around
-constexpr double crowd_reach_m = 250.0;         ///< from the eye
-constexpr float house_circle_m = 4.0F;          ///< no house where less fits
-constexpr float first_growth_ratio = 0.28F;     ///< of the reach: all things have grown by then
-constexpr glm::vec2 shadow_px(45.0F, 80.0F);    ///< things look so high where their shadows begin and are whole
+constexpr float max_height_m = 17.0F;        ///< of all things
+constexpr float max_fineness = 1.5F;         ///< of plants where few trees are near
+constexpr float max_crowding = 3.0F;         ///< of trees in view, over those all around
+constexpr double crowd_reach_m = 250.0;      ///< from the eye
+constexpr float house_circle_m = 4.0F;       ///< no house where less fits
+constexpr float first_growth_ratio = 0.34F;  ///< of the reach: all things have grown by then
+constexpr glm::vec2 shadow_px(45.0F, 80.0F); ///< things look so high where their shadows begin and are whole
+constexpr glm::vec2 rim_px(90.0F, 180.0F);   ///< and so high where a soft rim begins and is whole
+constexpr float conifer_taper = 0.5F;
+constexpr float layer_part = 0.125F;            ///< of a layer: from one shadow to the next above it
 constexpr float shadow_radius_m = 5.0F;         ///< of most of them
 constexpr float shadow_margin_m = 45.0F;        ///< beyond the picture, where things still cast shadows into it
+constexpr float wood_edge = 0.6F;               ///< 1: as many far trees where half of the places have trees as houses
 constexpr float min_full_px = 3.0F;             ///< things that would look lower have not wholly grown
 constexpr double placement_radius_ratio = 0.19; ///< radius that fits into a quarter of a cell, over its side
 
-/// Middles of the four quarters into which its diagonals cut a cell.
-constexpr std::array<glm::dvec2, 4> quarter_centres = {
-    glm::dvec2(0.5, 0.2071), {0.7929, 0.5}, {0.5, 0.7929}, {0.2071, 0.5}};
+/// Middles of the four quarters into which its diagonals cut a cell, from its middle.
+constexpr std::array<glm::vec2, 4> quarter_ways = {
+    glm::vec2(0.0F, -0.2929F), {0.2929F, 0.0F}, {0.0F, 0.2929F}, {-0.2929F, 0.0F}};
 
 /// Circles in a circle of radius 1 that are apart, in one of which each plant stands: their middles and their radius.
 struct Slots {
@@ -86,7 +91,8 @@ public:
           slots_(slots_for(max_radius_m_)),
           reach_m_(max_radius_m_ < min_radius_m ? 0.0
                                                 : std::min(max_reach_m, max_reach_cells * stride_ * ground_.spacing_m)),
-          plants_(ground_.day), shadows_(ground_.day), item_cache_(cache_size) {}
+          plants_(ground_.day), shadows_(ground_.day), cells_(cache_side * cache_side),
+          items_(cells_.size() * quarter_ways.size() * slots_.middles.size()) {}
 
     void begin_standing(const NearDetailView& view) override {
         view_ = view;
@@ -96,7 +102,7 @@ public:
                         ? 1.0F / std::clamp(std::sqrt(max_crowding * share_of_trees()), 1.0F / max_fineness, 1.0F)
                         : 1.0F;
         shadow_reach_m_ = 0.0F;
-        if (ground_.has_shadows && view.order == terrain::PaintOrder::BackToFront && shadows_.are_cast()) {
+        if (ground_.has_shadows && shadows_.are_cast()) {
             shadow_reach_m_ = std::min(max_height_m * view.focal_px / shadow_px.x, static_cast<float>(view_reach_m_));
         }
     }
@@ -115,14 +121,16 @@ public:
             for (int column = std::max(min_cell.x, 0); column <= std::min(max_cell.x, ground_.samples.x - 2);
                  ++column) {
                 if (row % stride_ != 0 || column % stride_ != 0) { continue; }
+                const Cell& cell = cell_at(column, row);
+                if (cell.most_far < 0.0F) { continue; }
                 const glm::dvec2 from_middle = place - glm::dvec2(column, row) - 0.5;
                 for (int quarter = 0; quarter < 4; ++quarter) {
-                    const glm::dvec2 way = quarter_centres[static_cast<std::size_t>(quarter)] - 0.5;
+                    const glm::dvec2 way(quarter_ways[static_cast<std::size_t>(quarter)]);
                     const bool upright = std::abs(way.y) > std::abs(way.x);
                     const double out =
                         upright ? std::copysign(1.0, way.y) * from_middle.y : std::copysign(1.0, way.x) * from_middle.x;
                     const double aside = std::abs(upright ? from_middle.x : from_middle.y);
-                    if (out > aside - near && bears_anything({column, row, quarter})) { return true; }
+                    if (out > aside - near && bears_anything(cell, quarter)) { return true; }
                 }
             }
         }
@@ -132,10 +140,11 @@ public:
     void add_standing(const std::array<models::ColourVertex, 3>& triangle, const StandingTriangles& to) override {
         const std::array triangle_m{triangle[0].position_m, triangle[1].position_m, triangle[2].position_m};
         placed_items_.clear();
-        for_each_quarter(box_of(triangle_m), view_reach_m_, [&](const Quarter& quarter, const glm::vec2& centre_m) {
-            const std::optional<GroundAnchor> ground = anchor_at(triangle, triangle_m, centre_m);
-            if (ground) { place_quarter(quarter, *ground, 0.0F); }
-        });
+        for_each_quarter(
+            box_of(triangle_m), view_reach_m_, [&](std::span<const SceneryItem> items, const glm::vec2& centre_m) {
+                const std::optional<GroundAnchor> ground = anchor_at(triangle, triangle_m, centre_m);
+                if (ground) { place_quarter(items, *ground, 0.0F); }
+            });
         std::ranges::sort(placed_items_,
             [&](const PlacedItem& one, const PlacedItem& other) { return one.power_m2 < other.power_m2; });
         StandingMesh mesh{to.vertices, to.indices};
@@ -162,7 +171,11 @@ public:
 
     void add_shadows(const std::array<models::ColourVertex, 3>& part, const StandingTriangles& to) override {
         if (casters_.empty() || !shadows_.begin(part)) { return; }
-        for (const ShadowCaster& caster : casters_) { shadows_.add(caster, to); }
+        // Rims are painted first, the darkest shadows last. Each is a part of a layer above the one before.
+        auto above = static_cast<float>(2 * casters_.size());
+        const auto scale = [&] { return depth_offset_factor(1.0F + layer_part * --above); };
+        for (const ShadowCaster& caster : casters_) { shadows_.add(caster, scale(), to); }
+        for (const ShadowCaster& caster : casters_) { shadows_.add_rim(caster, scale(), to); }
     }
 
 private:
@@ -171,23 +184,15 @@ private:
     struct SceneryItem {
         SceneryKind kind = SceneryKind::None;
         std::uint8_t sun = 255;
+        std::uint8_t edge = 0; ///< how much more of such things are far: 0..255
         std::uint32_t random_bits = 0;
     };
 
-    struct CachedItem {
-        std::uint64_t place = ~std::uint64_t{0};
-        SceneryItem item;
-    };
-
-    /// A quarter of a cell of the grid.
-    struct Quarter {
-        int column;
-        int row;
-        int number;
-
-        glm::dvec2 centre() const {
-            return glm::dvec2(column, row) + quarter_centres[static_cast<std::size_t>(number)];
-        }
+    /// A cell of the grid.
+    struct Cell {
+        glm::ivec2 place{-1};
+        float most_far = -1.0F; ///< the greatest far_share() in it; -1 where nothing stands
+        std::size_t first = 0;  ///< of its items: slot by slot, quarter by quarter
     };
 
     struct PlacedItem {
@@ -208,38 +213,63 @@ private:
 
     static float sun_of(const PlacedItem& one) { return static_cast<float>(one.item.sun) * (1.0F / 255.0F); }
 
-    /// A house fills the quarter; it stands in the first slot.
-    bool bears_anything(const Quarter& quarter) {
-        for (std::uint32_t slot = 0; slot < slots_.middles.size(); ++slot) {
-            if (item_at(quarter, slot).kind != SceneryKind::None) { return true; }
-        }
-        return false;
+    /// How far from the eye a thing still grows: 0, where all do, to 1. Few plants are far, most of them at the edges
+    /// of woods.
+    static float far_share(const SceneryItem& item) {
+        const float share = share_of(item.random_bits, 0);
+        const float edge = item.kind == SceneryKind::House ? 1.0F : static_cast<float>(item.edge) / 255.0F;
+        return share * glm::mix(share, 1.0F, edge);
     }
 
-    SceneryItem item_at(const Quarter& quarter, std::uint32_t slot) {
-        const std::uint32_t in_cell = static_cast<std::uint32_t>(quarter.number) + 4U * slot;
-        const auto row = static_cast<std::uint32_t>(quarter.row);
-        const auto column = static_cast<std::uint32_t>(quarter.column);
-        const std::uint64_t place = (std::uint64_t{row} << 32U | std::uint64_t{column} << 5U) + in_cell;
-        const std::uint32_t random_bits =
-            scrambled((column * 4U + in_cell % 4U) * 0x9e3779b1U ^ scrambled(row ^ slot * 0x85ebca77U));
-        CachedItem& known = item_cache_[random_bits & (cache_size - 1)];
-        if (known.place != place) {
-            const SceneryDensity& density = density_of(quarter.column, quarter.row);
-            const float pick = share_of(random_bits, 24) + share_of(random_bits, 16) * (1.0F / 256.0F);
-            const bool may_be_house = slot == 0 && max_radius_m_ >= house_circle_m;
-            float sum = may_be_house ? density.houses : 0.0F;
-            SceneryKind kind = pick < sum ? SceneryKind::House : SceneryKind::None;
-            for (const auto& [share, own] : {std::pair(density.conifers, SceneryKind::Conifer),
-                     std::pair(density.broadleaves, SceneryKind::Broadleaf),
-                     std::pair(density.shrubs, SceneryKind::Shrub)}) {
-                sum += share;
-                kind = kind == SceneryKind::None && pick < sum ? own : kind;
-            }
-            known = {place, {kind, static_cast<std::uint8_t>(std::clamp(density.sun, 0.0F, 1.0F) * 255.0F),
-                                scrambled(random_bits)}};
+    /// What stands in a quarter of a cell. A house fills it; it stands in the first slot.
+    std::span<const SceneryItem> items_of(const Cell& cell, int quarter) const {
+        const std::size_t count = slots_.middles.size();
+        return std::span(items_).subspan(cell.first + static_cast<std::size_t>(quarter) * count, count);
+    }
+
+    bool bears_anything(const Cell& cell, int quarter) const {
+        return std::ranges::any_of(
+            items_of(cell, quarter), [](const SceneryItem& item) { return item.kind != SceneryKind::None; });
+    }
+
+    const Cell& cell_at(int column, int row) {
+        const auto place =
+            static_cast<std::size_t>((column / stride_) % cache_side + cache_side * ((row / stride_) % cache_side));
+        Cell& cell = cells_[place];
+        if (cell.place != glm::ivec2(column, row)) {
+            cell = {{column, row}, -1.0F, place * quarter_ways.size() * slots_.middles.size()};
+            fill(cell);
         }
-        return known.item;
+        return cell;
+    }
+
+    void fill(Cell& cell) {
+        const SceneryDensity density = ground_.density_at(cell.place.x, cell.place.y);
+        const auto column = static_cast<std::uint32_t>(cell.place.x);
+        const auto row = static_cast<std::uint32_t>(cell.place.y);
+        const auto byte = [](float share) { return static_cast<std::uint8_t>(std::clamp(share, 0.0F, 1.0F) * 255.0F); };
+        const float trees = density.conifers + density.broadleaves;
+        SceneryItem* item = &items_[cell.first];
+        for (std::uint32_t quarter = 0; quarter < quarter_ways.size(); ++quarter) {
+            for (std::uint32_t slot = 0; slot < slots_.middles.size(); ++slot) {
+                const std::uint32_t random_bits =
+                    scrambled((column * 4U + quarter) * 0x9e3779b1U ^ scrambled(row ^ slot * 0x85ebca77U));
+                const float pick = share_of(random_bits, 24) + share_of(random_bits, 16) * (1.0F / 256.0F);
+                const bool may_be_house = slot == 0 && max_radius_m_ >= house_circle_m;
+                float sum = may_be_house ? density.houses : 0.0F;
+                SceneryKind kind = pick < sum ? SceneryKind::House : SceneryKind::None;
+                for (const auto& [share, own] : {std::pair(density.conifers, SceneryKind::Conifer),
+                         std::pair(density.broadleaves, SceneryKind::Broadleaf),
+                         std::pair(density.shrubs, SceneryKind::Shrub)}) {
+                    sum += share;
+                    kind = kind == SceneryKind::None && pick < sum ? own : kind;
+                }
+                *item = {
+                    kind, byte(density.sun), byte(wood_edge * 4.0F * trees * (1.0F - trees)), scrambled(random_bits)};
+                if (kind != SceneryKind::None) { cell.most_far = std::max(cell.most_far, far_share(*item)); }
+                ++item;
+            }
+        }
     }
 
     /// The share of the places around the eye at which trees stand, 0..1. It changes steadily with the eye.
@@ -258,21 +288,12 @@ private:
                 const glm::vec2 off((glm::dvec2(column, row) + 0.5 - eye) / reach);
                 const float weight = std::max(1.0F - glm::dot(off, off), 0.0F);
                 if (weight == 0.0F) { continue; }
-                const SceneryKind kind = item_at({column, row, (column ^ row) & 3}, 0).kind;
+                const SceneryKind kind = items_of(cell_at(column, row), (column ^ row) & 3)[0].kind;
                 all += weight;
                 trees += kind == SceneryKind::Broadleaf || kind == SceneryKind::Conifer ? weight : 0.0F;
             }
         }
         return trees / all;
-    }
-
-    /// The quarters of a cell follow one another.
-    const SceneryDensity& density_of(int column, int row) {
-        if (last_cell_ != glm::ivec2(column, row)) {
-            last_density_ = ground_.density_at(column, row);
-            last_cell_ = {column, row};
-        }
-        return last_density_;
     }
 
     /// A rectangle of the plan, metres east and north of the eye.
@@ -287,7 +308,7 @@ private:
     }
 
     /// Calls `visit` for the quarters of the cells that reach into a box and are no farther than that from the eye,
-    /// with their centres.
+    /// with what stands there and their centres; may leave out those of which nothing has grown.
     template <typename Visit>
     void for_each_quarter(const PlanBox& box, double reach_m, const Visit& visit) {
         const glm::dvec2 to_grid = glm::dvec2(view_.eye_m) - ground_.first_m;
@@ -298,14 +319,21 @@ private:
             return (cell + stride_ - 1) / stride_ * stride_;
         };
         const float farthest_m = static_cast<float>(reach_m) + max_radius_m_;
+        const auto cell_m = static_cast<float>(ground_.spacing_m);
         const int last_column = std::min(static_cast<int>(std::floor(max_cell.x)), ground_.samples.x - 2);
         const int last_row = std::min(static_cast<int>(std::floor(max_cell.y)), ground_.samples.y - 2);
         for (int row = first_of(min_cell.y); row <= last_row; row += stride_) {
             for (int column = first_of(min_cell.x); column <= last_column; column += stride_) {
+                const Cell& cell = cell_at(column, row);
+                if (cell.most_far < 0.0F) { continue; }
+                const glm::vec2 middle_m((glm::dvec2(column, row) + 0.5) * ground_.spacing_m - to_grid);
+                const float within_m = std::min(farthest_m, growth_reach_m(cell.most_far)) + cell_m;
+                if (glm::dot(middle_m, middle_m) > within_m * within_m) { continue; }
                 for (int number = 0; number < 4; ++number) {
-                    const Quarter quarter{column, row, number};
-                    const glm::vec2 centre_m(quarter.centre() * ground_.spacing_m - to_grid);
-                    if (glm::dot(centre_m, centre_m) <= farthest_m * farthest_m) { visit(quarter, centre_m); }
+                    const glm::vec2 centre_m = middle_m + cell_m * quarter_ways[static_cast<std::size_t>(number)];
+                    if (glm::dot(centre_m, centre_m) <= farthest_m * farthest_m) {
+                        visit(items_of(cell, number), centre_m);
+                    }
                 }
             }
         }
@@ -349,23 +377,27 @@ private:
         const glm::vec2 sunwards_m = shadows_.reach_m(max_height_m);
         box.min_m += glm::min(sunwards_m, 0.0F) - shadow_radius_m;
         box.max_m += glm::max(sunwards_m, 0.0F) + shadow_radius_m;
-        for_each_quarter(box, static_cast<double>(reach_m), [&](const Quarter& quarter, const glm::vec2& centre_m) {
-            const float ground_m = triangle_m[0].z + glm::dot(slope, centre_m - glm::vec2(triangle_m[0]));
-            place_quarter(quarter, {glm::vec3(centre_m, ground_m), slope}, shadow_margin_m);
-        });
+        for_each_quarter(
+            box, static_cast<double>(reach_m), [&](std::span<const SceneryItem> items, const glm::vec2& centre_m) {
+                const float ground_m = triangle_m[0].z + glm::dot(slope, centre_m - glm::vec2(triangle_m[0]));
+                place_quarter(items, {glm::vec3(centre_m, ground_m), slope}, shadow_margin_m);
+            });
         for (const PlacedItem& one : placed_items_) {
-            const float strength = (one.height_px - shadow_px.x) / (shadow_px.y - shadow_px.x);
-            const ShadowCaster caster{
-                one.anchor.at_m, one.radius_m, one.height_m, std::min(strength, 1.0F) * sun_of(one)};
-            if (strength > 0.0F && shadows_.may_fall_on_triangle(caster)) { casters_.push_back(caster); }
+            const float strength = std::min((one.height_px - shadow_px.x) / (shadow_px.y - shadow_px.x), 1.0F);
+            const float near = std::clamp((one.height_px - rim_px.x) / (rim_px.y - rim_px.x), 0.0F, 1.0F);
+            if (strength <= 0.0F) { continue; }
+            const ShadowCaster caster{one.anchor.at_m, one.radius_m, one.height_m, strength * sun_of(one),
+                one.item.kind == SceneryKind::Conifer ? conifer_taper : 0.0F, near};
+            if (shadows_.may_fall_on_triangle(caster)) { casters_.push_back(caster); }
         }
+        std::ranges::sort(casters_, std::ranges::greater(), &ShadowCaster::strength);
     }
 
     /// Places what stands in a quarter, in view or no farther than a margin beyond. `centre`: of the quarter.
-    void place_quarter(const Quarter& quarter, const GroundAnchor& centre, float margin_m) {
+    void place_quarter(std::span<const SceneryItem> items, const GroundAnchor& centre, float margin_m) {
         const float slot_m = slots_.radius * max_radius_m_;
-        for (std::uint32_t slot = 0; slot < slots_.middles.size(); ++slot) {
-            const SceneryItem item = item_at(quarter, slot);
+        for (std::size_t slot = 0; slot < items.size(); ++slot) {
+            const SceneryItem& item = items[slot];
             if (item.kind == SceneryKind::None) { continue; }
             PlacedItem one{centre, item};
             float height_m = house_height_m;
@@ -396,11 +428,8 @@ private:
         const glm::vec3& at_m = one.anchor.at_m;
         const float distance_m = glm::length(at_m);
         const float full_px_m = height_m * view_.focal_px / min_full_px;
-        const float share = share_of(one.item.random_bits, 0);
-        const float far_share = one.item.kind == SceneryKind::House ? share : share * share; // few plants are far
-        const float begins_m =
-            std::min(static_cast<float>(view_reach_m_) * (first_growth_ratio + (1.0F - first_growth_ratio) * far_share),
-                full_px_m * (0.8F + 0.4F * share));
+        const float begins_m = std::min(
+            growth_reach_m(far_share(one.item)), full_px_m * (0.8F + 0.4F * share_of(one.item.random_bits, 0)));
         one.height_share = std::min(4.0F - 4.0F * distance_m / begins_m, 1.0F);
         if (one.height_share <= 0.0F) { return false; }
         const float room_m = one.radius_m + height_m + margin_m;
@@ -414,6 +443,11 @@ private:
         return true;
     }
 
+    /// The distance at which things of a far_share() begin to grow.
+    float growth_reach_m(float far_share) const {
+        return static_cast<float>(view_reach_m_) * (first_growth_ratio + (1.0F - first_growth_ratio) * far_share);
+    }
+
     float house_half_m() const { return std::min(0.62F * max_radius_m_, 5.5F); }
 
     SceneryGround ground_;
@@ -421,16 +455,15 @@ private:
     float max_radius_m_; ///< of what fits into its triangle; too small: nothing stands anywhere
     Slots slots_;
     double reach_m_;
-    glm::ivec2 last_cell_{-1};
-    SceneryDensity last_density_; ///< in that cell
     PlantMesher plants_;
     SceneryShadows shadows_;
     float shadow_reach_m_ = 0.0F; ///< in this view
     NearDetailView view_;
     double view_reach_m_ = 0.0;
-    float fineness_ = 1.0F; ///< of plants in this view
-    std::size_t added_ = 0; ///< triangles in this frame
-    std::vector<CachedItem> item_cache_;
+    float fineness_ = 1.0F;                ///< of plants in this view
+    std::size_t added_ = 0;                ///< triangles in this frame
+    std::vector<Cell> cells_;              ///< a table by place
+    std::vector<SceneryItem> items_;       ///< of those cells
     std::vector<PlacedItem> placed_items_; ///< on one triangle
     std::vector<ShadowCaster> casters_;    ///< of shadows on the triangle of the last add_standing()
 };

@@ -17,7 +17,7 @@ struct SceneryGround {
     double spacing_m = 30.0; ///< between samples
     Daylight day;
     std::function<SceneryDensity(int column, int row)> density_at; ///< at a sample
-    bool has_shadows = true; ///< whether things cast shadows, where the nearest triangles come last
+    bool has_shadows = true;                                       ///< whether things cast shadows
 };
 
 /// Trees, shrubs and houses of few polygons near the eye. Positions depend on the ground alone: each lies well within

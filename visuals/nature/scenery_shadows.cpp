@@ -14,9 +14,18 @@ namespace octant::visuals::nature {
 
 namespace {
 
-/// Directions all around, counter-clockwise.
-constexpr std::array<glm::vec2, 8> around = {glm::vec2(0.924F, 0.383F), {0.383F, 0.924F}, {-0.383F, 0.924F},
-    {-0.924F, 0.383F}, {-0.924F, -0.383F}, {-0.383F, -0.924F}, {0.383F, -0.924F}, {0.924F, -0.383F}};
+constexpr float rim = 0.12F; ///< so far in and out of the outline, of its distance from the middle
+
+/// Of sixteen around the unit circle, counter-clockwise. `share`: how far the odd ones have come from the straight
+/// lines between the others.
+glm::vec2 corner_of(std::size_t corner, float share) {
+    constexpr float cosine = 0.923879533F; // of half an eighth of a turn
+    constexpr float sine = 0.382683432F;
+    const glm::vec2& way = compass_directions[corner / 2];
+    if (corner % 2 == 0) { return way; }
+    const glm::vec2 turned(cosine * way.x - sine * way.y, cosine * way.y + sine * way.x);
+    return turned * glm::mix(cosine, 1.0F, share);
+}
 
 } // namespace
 
@@ -48,10 +57,10 @@ bool SceneryShadows::begin(const std::array<models::ColourVertex, 3>& triangle) 
 void SceneryShadows::cut(Outline& outline, const glm::vec2& from_m, const glm::vec2& inwards) {
     Outline kept;
     for (std::size_t i = 0; i < outline.count; ++i) {
-        const glm::vec2& a = outline.at_m[i];
-        const glm::vec2& b = outline.at_m[i + 1 < outline.count ? i + 1 : 0];
-        const float a_in = glm::dot(inwards, a - from_m);
-        const float b_in = glm::dot(inwards, b - from_m);
+        const glm::vec3& a = outline.at_m[i];
+        const glm::vec3& b = outline.at_m[i + 1 < outline.count ? i + 1 : 0];
+        const float a_in = glm::dot(inwards, glm::vec2(a) - from_m);
+        const float b_in = glm::dot(inwards, glm::vec2(b) - from_m);
         if (a_in >= 0.0F) { kept.at_m[kept.count++] = a; }
         if ((a_in > 0.0F && b_in < 0.0F) || (a_in < 0.0F && b_in > 0.0F)) {
             kept.at_m[kept.count++] = glm::mix(a, b, a_in / (a_in - b_in));
@@ -67,36 +76,81 @@ std::optional<SceneryShadows::Ellipse> SceneryShadows::shadow_of(const ShadowCas
     const float over_plane_m = caster.foot_m.z - corner_m.z - glm::dot(slope_, foot_m - glm::vec2(corner_m));
     const glm::vec2 half_m = 0.5F * caster.height_m * shadow_per_m_;
     const float drawn_out_m = glm::length(half_m);
-    Ellipse ellipse{foot_m + half_m + over_plane_m * shadow_per_m_,
-        drawn_out_m > 1e-3F ? half_m / drawn_out_m : glm::vec2(1.0F, 0.0F),
-        std::sqrt(caster.radius_m * caster.radius_m + drawn_out_m * drawn_out_m), {}};
+    const float long_m = std::sqrt(caster.radius_m * caster.radius_m + drawn_out_m * drawn_out_m);
+    const glm::vec2 along = drawn_out_m > 1e-3F ? half_m / drawn_out_m : glm::vec2(1.0F, 0.0F);
+    const float width_m = caster.radius_m / (1.0F + 0.3F * caster.taper); // a tapered one is widest before its middle
+    Ellipse ellipse{foot_m + half_m + over_plane_m * shadow_per_m_, long_m * along,
+        width_m * glm::vec2(-along.y, along.x), caster.taper, {}};
+    const float reach_m = (1.0F + rim * caster.nearness) * long_m;
     for (std::size_t i = 0; i < 3; ++i) {
         const float inside_m = glm::dot(inwards_[i], ellipse.middle_m - glm::vec2(triangle_[i].position_m));
-        if (inside_m <= -ellipse.long_m) { return std::nullopt; }
-        ellipse.crosses[i] = inside_m < ellipse.long_m;
+        if (inside_m <= -reach_m) { return std::nullopt; }
+        ellipse.crosses[i] = inside_m < reach_m;
     }
     return ellipse;
 }
 
-void SceneryShadows::add(const ShadowCaster& caster, const StandingTriangles& to) const {
+SceneryShadows::Ring SceneryShadows::ring_of(
+    const ShadowCaster& caster, const Ellipse& ellipse, float size, float strength) const {
+    Ring ring;
+    for (std::size_t i = 0; i < corners; ++i) {
+        const glm::vec2 at_m = ellipse.place_m(corner_of(i, caster.nearness) * size);
+        ring[i].at_m = glm::vec3(at_m, strength);
+        for (unsigned side = 0; side < 3; ++side) {
+            if (ellipse.crosses[side] &&
+                glm::dot(inwards_[side], at_m - glm::vec2(triangle_[side].position_m)) < 0.0F) {
+                ring[i].outside |= 1U << side;
+            }
+        }
+    }
+    return ring;
+}
+
+void SceneryShadows::add(const ShadowCaster& caster, float scale, const StandingTriangles& to) const {
     const std::optional<Ellipse> ellipse = shadow_of(caster);
     if (!ellipse) { return; }
-    const glm::vec2 aside(-ellipse->along.y, ellipse->along.x);
-    Outline outline;
-    for (const glm::vec2& way : around) {
-        outline.at_m[outline.count++] =
-            ellipse->middle_m + way.x * ellipse->long_m * ellipse->along + way.y * caster.radius_m * aside;
+    Ring ring = ring_of(caster, *ellipse, 1.0F - rim * caster.nearness, caster.strength);
+    if (caster.nearness > 0.0F) {
+        add_part(ring, scale, to);
+        return;
     }
-    for (std::size_t i = 0; i < 3; ++i) {
-        if (ellipse->crosses[i]) { cut(outline, glm::vec2(triangle_[i].position_m), inwards_[i]); }
+    for (std::size_t i = 1; i < corners / 2; ++i) { ring[i] = ring[2 * i]; }
+    add_part(std::span(ring).first<corners / 2>(), scale, to);
+}
+
+void SceneryShadows::add_rim(const ShadowCaster& caster, float scale, const StandingTriangles& to) const {
+    if (caster.nearness <= 0.0F) { return; }
+    const std::optional<Ellipse> ellipse = shadow_of(caster);
+    if (!ellipse) { return; }
+    const Ring inner = ring_of(caster, *ellipse, 1.0F - rim * caster.nearness, caster.strength);
+    const Ring outer = ring_of(caster, *ellipse, 1.0F + rim * caster.nearness, 0.0F);
+    for (std::size_t i = 0; i < corners; ++i) {
+        const std::size_t next = (i + 1) % corners;
+        add_part(std::array{inner[i], outer[i], outer[next], inner[next]}, scale, to);
+    }
+}
+
+/// Cuts a convex polygon to the triangle and appends it.
+void SceneryShadows::add_part(std::span<const Corner> polygon, float scale, const StandingTriangles& to) const {
+    unsigned all_outside = ~0U;
+    unsigned any_outside = 0;
+    Outline outline;
+    for (const Corner& corner : polygon) {
+        all_outside &= corner.outside;
+        any_outside |= corner.outside;
+        outline.at_m[outline.count++] = corner.at_m;
+    }
+    if (all_outside != 0) { return; }
+    for (unsigned side = 0; side < 3; ++side) {
+        if ((any_outside >> side & 1U) != 0) { cut(outline, glm::vec2(triangle_[side].position_m), inwards_[side]); }
     }
     if (outline.count < 3) { return; }
     const auto& [a, b, c] = triangle_;
-    const float left = glm::mix(1.0F, left_, caster.strength);
     const auto first = static_cast<std::uint32_t>(to.vertices.size());
     for (std::size_t i = 0; i < outline.count; ++i) {
-        const glm::vec3 at_m(
-            outline.at_m[i], a.position_m.z + glm::dot(slope_, outline.at_m[i] - glm::vec2(a.position_m)));
+        const glm::vec2 plan_m(outline.at_m[i]);
+        const glm::vec3 at_m(plan_m, a.position_m.z + glm::dot(slope_, plan_m - glm::vec2(a.position_m)));
+        const float left = glm::mix(1.0F, left_, outline.at_m[i].z);
         const float u = std::clamp(signed_area2(b.position_m, c.position_m, at_m) / area_m2_, 0.0F, 1.0F);
         const float v = std::clamp(signed_area2(c.position_m, a.position_m, at_m) / area_m2_, 0.0F, 1.0F - u);
         std::uint32_t colour = 0;
@@ -107,7 +161,7 @@ void SceneryShadows::add(const ShadowCaster& caster, const StandingTriangles& to
             const float mean = u * part(a) + v * part(b) + (1.0F - u - v) * part(c);
             colour |= static_cast<std::uint32_t>((shift < 24 ? left : 1.0F) * mean + 0.5F) << shift;
         }
-        to.vertices.push_back({at_m, colour});
+        to.vertices.push_back({at_m * scale, colour});
     }
     for (std::uint32_t i = 2; i < outline.count; ++i) {
         to.indices.insert(to.indices.end(), {first, first + i - 1, first + i});

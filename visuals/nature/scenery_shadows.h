@@ -11,6 +11,7 @@
 #include <array>
 #include <cstddef>
 #include <optional>
+#include <span>
 
 namespace octant::visuals::nature {
 
@@ -20,11 +21,13 @@ struct ShadowCaster {
     float radius_m = 1.0F;
     float height_m = 1.0F;
     float strength = 1.0F; ///< 1: all sunlight is taken away; 0: none
+    float taper = 0.0F;    ///< how much narrower the shadow is at its end than in its middle, 0..1
+    float nearness = 0.0F; ///< 0: the outline is sharp and has 8 corners; 1: it has 16 and a whole soft rim
 };
 
 /// Cuts the shadows of what stands on the ground to a triangle of the ground. The shadows lie in its plane and show its
-/// colours and its detail pattern, darker; where two overlap the nearer caster's hides the other, so that overlapping
-/// shadows of one strength change nothing.
+/// colours and its detail pattern, darker; where two overlap the one painted later is seen, so that overlapping shadows
+/// of one strength change nothing.
 class SceneryShadows {
 public:
     explicit SceneryShadows(const Daylight& day);
@@ -43,30 +46,51 @@ public:
     /// False only if no part of the shadow falls on the triangle.
     bool may_fall_on_triangle(const ShadowCaster& caster) const { return shadow_of(caster).has_value(); }
 
-    /// Appends the part of a shadow that falls on the triangle, if there is any.
-    void add(const ShadowCaster& caster, const StandingTriangles& to) const;
+    /// Appends the part of a shadow within its rim that falls on the triangle, if there is any. `scale`: towards the
+    /// eye.
+    void add(const ShadowCaster& caster, float scale, const StandingTriangles& to) const;
+
+    /// Appends the part of a shadow's rim that falls on the triangle.
+    void add_rim(const ShadowCaster& caster, float scale, const StandingTriangles& to) const;
 
 private:
     static constexpr float min_sun_height = 0.05F; ///< sine of its elevation
     static constexpr float max_length = 2.5F;      ///< of a shadow, over its caster's height
-    static constexpr std::size_t corners = 8;
+    static constexpr std::size_t corners = 16;
 
-    /// A convex polygon on the plan; each of three cuts adds a corner.
+    /// A corner of a shadow: its place on the plan and the shadow's strength, and beyond which sides of the triangle it
+    /// lies, a bit for each.
+    struct Corner {
+        glm::vec3 at_m{0.0F};
+        unsigned outside = 0;
+    };
+
+    using Ring = std::array<Corner, corners>;
+
+    /// A convex polygon of such corners; each of three cuts adds one.
     struct Outline {
-        std::array<glm::vec2, corners + 3> at_m{};
+        std::array<glm::vec3, corners + 3> at_m{};
         std::size_t count = 0;
     };
 
     /// An ellipse on the plan.
     struct Ellipse {
         glm::vec2 middle_m;
-        glm::vec2 along;             ///< unit
-        float long_m;                ///< half its length
-        std::array<bool, 3> crosses; ///< which sides of the triangle
+        glm::vec2 along_m; ///< half its length
+        glm::vec2 aside_m; ///< half its width
+        float taper;
+        std::array<bool, 3> crosses; ///< which sides of the triangle the shadow with its rim crosses
+
+        /// A place of the unit circle.
+        glm::vec2 place_m(const glm::vec2& at) const {
+            return middle_m + at.x * along_m + at.y * (1.0F - taper * at.x) * aside_m;
+        }
     };
 
     std::optional<Ellipse> shadow_of(const ShadowCaster& caster) const;
     static void cut(Outline& outline, const glm::vec2& from_m, const glm::vec2& inwards);
+    Ring ring_of(const ShadowCaster& caster, const Ellipse& ellipse, float size, float strength) const;
+    void add_part(std::span<const Corner> polygon, float scale, const StandingTriangles& to) const;
 
     glm::vec3 to_sun_;
     float level_;       ///< cosine of the sun's elevation

@@ -25,9 +25,7 @@ namespace octant::visuals::planning {
 
 namespace {
 
-/// The scale factor of a layer's corners towards the eye: for a depth buffer each layer is in front of the one below by
-/// 256 float steps, at the same pixels.
-float depth_offset_factor(GroundLayer layer) { return 1.0F - static_cast<float>(layer) * 0x1p-15F; }
+float depth_offset_factor(GroundLayer layer) { return nature::depth_offset_factor(static_cast<float>(layer)); }
 
 } // namespace
 

@@ -331,9 +331,12 @@ TEST_CASE("triangles that detail adds and those of what stands there are counted
     CHECK(all.size() == given + bare.scenery_triangles);
 }
 
-TEST_CASE("shadows lie in the plane of the ground, are darker than it and keep its covers") {
+TEST_CASE("shadows lie just in front of the ground, are darker than it and keep its covers") {
     const Field field(low_eye_m, 1, 0.0);
-    const auto triangles_of = [&](bool has_shadows, std::vector<ColourVertex>& vertices) {
+    const auto triangles_of = [&](bool has_shadows, visuals::terrain::PaintOrder order,
+                                  std::vector<ColourVertex>& vertices) {
+        NearDetailView view = view_from(low_eye_m);
+        view.order = order;
         DetailedGround ground;
         GroundDecorations decorations;
         decorations.push_back(scenery_decoration({glm::dvec2(0.0), glm::ivec2(cells + 1), spacing_m, Daylight({}),
@@ -341,22 +344,25 @@ TEST_CASE("shadows lie in the plane of the ground, are darker than it and keep i
                 return SceneryDensity{0.1F, 0.1F, 0.0F, 0.0F, 1.0F};
             },
             has_shadows}));
-        const auto mesh = ground.detailed_mesh(field.mesh(), view_from(low_eye_m), {true, true}, decorations);
+        const auto mesh = ground.detailed_mesh(field.mesh(), view, {true, true}, decorations);
         for (const ColourVertex& vertex : mesh.vertices) {
             const bool is_ground = vertex.colour == 0xff808080U;
             if (vertex.colour >> 24U == 0xffU && !is_ground) { vertices.push_back(vertex); }
         }
         return mesh.scenery_triangles;
     };
-    std::vector<ColourVertex> none;
-    std::vector<ColourVertex> shadows;
-    const std::size_t without = triangles_of(false, none);
-    const std::size_t with = triangles_of(true, shadows);
-    CHECK(with > without);
-    CHECK(none.empty());
-    CHECK(shadows.size() > 50);
-    for (const ColourVertex& vertex : shadows) {
-        REQUIRE(vertex.position_m.z == Approx(-14.0));
-        REQUIRE((vertex.colour & 0xffU) < 0x80U);
+    for (const auto order : {visuals::terrain::PaintOrder::BackToFront, visuals::terrain::PaintOrder::FrontToBack}) {
+        std::vector<ColourVertex> none;
+        std::vector<ColourVertex> shadows;
+        const std::size_t without = triangles_of(false, order, none);
+        const std::size_t with = triangles_of(true, order, shadows);
+        CHECK(with > without);
+        CHECK(none.empty());
+        CHECK(shadows.size() > 50);
+        for (const ColourVertex& vertex : shadows) {
+            REQUIRE(vertex.position_m.z > -14.0F * (1.0F - 0x1p-16F));
+            REQUIRE(vertex.position_m.z < -13.99F);
+            REQUIRE((vertex.colour & 0xffU) < 0x80U);
+        }
     }
 }

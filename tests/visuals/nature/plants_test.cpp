@@ -123,6 +123,35 @@ TEST_CASE("what is painted of a plant or a house comes from near to far for ever
     CHECK(several > 200);
 }
 
+TEST_CASE("from the side the outline of a conifer steps out from tier to tier") {
+    PlantMesher mesher(Daylight({}));
+    Views views;
+    for (const auto& [height_px, tiers] : {std::pair{50.0F, 3}, {100.0F, 3}, {300.0F, 6}}) {
+        Plant plant{PlantKind::Conifer, {glm::vec3(60.0F, 0.0F, -6.0F), glm::vec2(0.0F)}, 3.0F, 13.0F, height_px};
+        plant.random_bits = views.bits();
+        Triangles triangles;
+        mesher.add(plant, triangles.mesh);
+        // Half the width of what is seen, at a height over the foot.
+        const auto half_m = [&](double height_m) {
+            double widest_m = 0.0;
+            for (std::size_t i = 0; i < triangles.indices.size(); ++i) {
+                const glm::dvec3 a = triangles.corner(i);
+                const glm::dvec3 b = triangles.corner(i % 3 == 2 ? i - 2 : i + 1);
+                const double share = (height_m - 6.0 - a.z) / (b.z - a.z);
+                if (share >= 0.0 && share <= 1.0) {
+                    widest_m = std::max(widest_m, std::abs(a.y + share * (b.y - a.y)));
+                }
+            }
+            return widest_m;
+        };
+        int steps = 0;
+        for (double height_m = 0.3; height_m < 12.0; height_m += 0.05) {
+            steps += half_m(height_m + 0.05) > 1.15 * half_m(height_m) ? 1 : 0;
+        }
+        CHECK(steps == tiers); // the lowest one over the trunk
+    }
+}
+
 TEST_CASE("plants and houses stay within their circles and above their ground") {
     PlantMesher mesher(Daylight({}));
     Views views;
@@ -162,7 +191,7 @@ TEST_CASE("plants do not change suddenly as they grow in the picture") {
         Plant plant = views.plant();
         plant.anchor.at_m = glm::vec3(30.0F, 10.0F, -8.0F);
         const glm::dvec3 middle_m = glm::dvec3(plant.anchor.at_m + glm::vec3(0.0F, 0.0F, 0.5F * plant.height_m));
-        for (const float px : {40.0F, 70.0F, 110.0F, 200.0F, 330.0F}) {
+        for (const float px : {40.0F, 70.0F, 110.0F, 150.0F, 260.0F}) {
             std::vector<double> distances_m;
             for (const float height_px : {px * 0.9999F, px * 1.0001F}) {
                 Triangles triangles;
