@@ -11,7 +11,6 @@
 #include "ui/library/loaded_world.h"
 #include "ui/settings/setting_rows.h"
 #include "ui/world/scene_ground.h"
-#include "visuals/scene/detail_pattern.h"
 #include "visuals/scene/truth.h"
 
 #include <algorithm>
@@ -137,8 +136,7 @@ ui::settings::RunSettings world_settings(ui::settings::RunSettings settings) {
 /// Makes what is made when it is first asked for, on two threads, instead of in the first picture.
 void finish_loading(const ui::settings::RunSettings& settings, const planning::Scene& scene) {
     constexpr bool on_two_threads = true;
-    const auto roads_and_pattern = [&] {
-        if (settings.ground.near_detail) { scene::detail_mip_levels(); }
+    const auto roads = [&] {
         return settings.ground.roads && !scene.ground_texture ? scene.ground->road_network() : nullptr;
     };
     // The land has the colours of the ground, which need its shadows.
@@ -146,7 +144,7 @@ void finish_loading(const ui::settings::RunSettings& settings, const planning::S
         scene.ground->mean_colour();
         return settings.air.sky ? &scene.ground->backdrop() : nullptr;
     };
-    run_both(on_two_threads, roads_and_pattern, shadows_and_land);
+    run_both(on_two_threads, roads, shadows_and_land);
 }
 
 std::shared_ptr<Loaded> load(const ui::settings::RunSettings& settings, const Loaded* shared,

@@ -81,17 +81,27 @@ Object make_texture(const Functions& gl, const scene::GroundImage& image, Textur
     return texture;
 }
 
-/// The ground's detail texture, a byte a texel, with its own levels; it repeats beyond its edge.
-Object make_detail_texture(const Functions& gl) {
+/// The ground's detail patterns, two bytes a texel: open ground, crowns; with their own levels. They repeat beyond the
+/// cube's edge.
+Object make_texture(const Functions& gl, const scene::DetailPattern& pattern) {
+    using scene::DetailPattern;
     Object texture = make_texture(gl, "ground's detail texture", GL_TEXTURE_3D);
-    const auto& levels = scene::detail_mip_levels();
-    const auto side = static_cast<GLsizei>(levels.front().size);
-    gl.texture_storage_3d(texture.name(), static_cast<GLsizei>(levels.size()), GL_R8, side, side, side);
+    gl.texture_storage_3d(texture.name(), DetailPattern::levels, GL_RG8, DetailPattern::side_texels,
+        DetailPattern::side_texels, DetailPattern::side_texels);
     gl.pixel_storei(GL_UNPACK_ALIGNMENT, 1);
-    GLint number = 0;
-    for (const scene::DetailPattern& level : levels) {
-        gl.texture_sub_image_3d(texture.name(), number++, 0, 0, 0, level.size, level.size, level.size, GL_RED,
-            GL_UNSIGNED_BYTE, level.texels.data());
+    for (int level = 0; level < DetailPattern::levels; ++level) {
+        const GLsizei side = DetailPattern::side_texels >> level;
+        std::vector<std::uint8_t> texels;
+        for (int z = 0; z < side; ++z) {
+            for (int y = 0; y < side; ++y) {
+                for (int x = 0; x < side; ++x) {
+                    texels.push_back(pattern.texel(DetailPattern::Kind::Open, level, {x, y, z}));
+                    texels.push_back(pattern.texel(DetailPattern::Kind::Crowns, level, {x, y, z}));
+                }
+            }
+        }
+        gl.texture_sub_image_3d(
+            texture.name(), level, 0, 0, 0, side, side, side, GL_RG, GL_UNSIGNED_BYTE, texels.data());
     }
     set_filters(gl, texture, GL_REPEAT);
     return texture;
@@ -130,7 +140,7 @@ constexpr std::size_t overlay_capacity_bytes = std::size_t{1} << 12;
 
 TrianglePainter::TrianglePainter(const Functions& gl, DrawState& state)
     : gl_(gl), state_(state), ground_programs_(make_program_pair(gl, "ground", {ground_vert, ground_frag})),
-      sky_programs_{make_program(gl, "sky", {sky_vert, ground_frag}), {}}, detail_texture_(make_detail_texture(gl)),
+      sky_programs_{make_program(gl, "sky", {sky_vert, ground_frag}), {}},
       mesh_(gl, "ground and sky", first_triangle_bytes, sizeof(ColourVertex),
           {{position_input, VertexInput::Kind::Floats3, offsetof(ColourVertex, position_m)},
               {colour_input, VertexInput::Kind::Colour, offsetof(ColourVertex, colour)}}) {}
@@ -161,8 +171,9 @@ void TrianglePainter::use_detail_texture(const scene::FramePlan& plan) {
     if (plan.detail_texture->contrast != uploaded_contrast_) {
         uploaded_contrast_ = plan.detail_texture->contrast;
         contrast_ = make_texture(gl_, *uploaded_contrast_);
+        detail_texture_ = make_texture(gl_, uploaded_contrast_->pattern());
     }
-    gl_.bind_texture_unit(detail_unit, detail_texture_.name());
+    gl_.bind_texture_unit(detail_unit, detail_texture_->name());
     gl_.bind_texture_unit(contrast_unit, contrast_->name());
 }
 

@@ -56,9 +56,9 @@ private:
     DrawState& state_;
     ProgramPair ground_programs_;
     ProgramPair sky_programs_;
-    Object detail_texture_;
-    std::shared_ptr<const scene::LandCoverContrast> uploaded_contrast_; ///< in contrast_
+    std::shared_ptr<const scene::LandCoverContrast> uploaded_contrast_; ///< in the next two
     std::optional<Object> contrast_;
+    std::optional<Object> detail_texture_;
     std::optional<GroundTexturing> texture_;
     std::optional<ProgramPair> mesh_programs_;
     std::optional<ProgramPair> polygon_number_programs_;

@@ -349,12 +349,12 @@ glm::vec3 dust_colour(const SiteConditions& site, const glm::vec3& dust) {
 /// Meadow and rock differ less in hue than where both are seen alone: above the tree line turf is nearly as grey as
 /// rock, which by a green meadow's share would look pink.
 std::array<scene::LandCover, scene::LandCoverContrast::covers> temperate_covers() {
-    return {scene::LandCover{forest, 0.17F}, scene::LandCover{{0.385F, 0.425F, 0.285F}, 0.10F},
+    return {scene::LandCover{forest, 0.25F}, scene::LandCover{{0.385F, 0.425F, 0.285F}, 0.10F},
         scene::LandCover{{0.47F, 0.455F, 0.37F}, 0.15F}, snow_on_ground};
 }
 
 std::array<scene::LandCover, scene::LandCoverContrast::covers> arid_covers() {
-    return {scene::LandCover{shrubs, 0.15F}, scene::LandCover{arid_stops[1].colour, 0.09F},
+    return {scene::LandCover{shrubs, 0.24F}, scene::LandCover{arid_stops[1].colour, 0.09F},
         scene::LandCover{arid_stops[2].colour, 0.15F}, snow_on_ground};
 }
 
@@ -501,8 +501,9 @@ float GroundPalette::cover_code(const TerrainPoint& point, float footprint_m) co
 }
 
 scene::LandCoverContrast GroundPalette::contrast() const {
-    if (climate_.dust) { return scene::LandCoverContrast(dust_covers(*climate_.dust)); }
-    return scene::LandCoverContrast(mixed_covers(arid_share_of(climate_.dryness)));
+    const glm::dvec3& to_sun = daylight_.to_sun();
+    return {climate_.dust ? dust_covers(*climate_.dust) : mixed_covers(arid_share_of(climate_.dryness)),
+        scene::detail_pattern(std::atan2(to_sun.x, to_sun.y))};
 }
 
 bool GroundPalette::is_water(const TerrainPoint& point) const {

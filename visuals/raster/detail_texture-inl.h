@@ -8,7 +8,7 @@
 #define OCTANT_RASTER_DETAIL_TEXTURE_INL
 #endif
 
-#include "visuals/raster/detail_image.h"
+#include "visuals/raster/detail_rays.h"
 #include "visuals/raster/strip_coverage-inl.h"
 #include "visuals/raster/triangle.h"
 #include "visuals/scene/detail_pattern.h"
@@ -287,7 +287,7 @@ public:
             across[i] = moves(tile_rays.part[i].per_x, near.across);
             down[i] = moves(tile_rays.part[i].per_y, near.down);
         }
-        // The pattern's finest features are two texels wide: half a level finer than usual will do.
+        // Most features are eight texels wide and more: half a level finer than usual will do.
         const auto widest = hn::Max(square(across), hn::Mul(square(down), pair_floats(0.5F)));
         const auto depth2 = hn::Mul(depth_, depth_);
         choose_level(hn::Mul(hn::Mul(widest, depth2), pair_floats(rays.texels2_per_m2)));
@@ -332,10 +332,11 @@ private:
         using scene::DetailPattern;
         constexpr std::int32_t of_one = 127 << 23; // the bits of 1.0
         constexpr int levels = DetailPattern::levels_per_scale * (DetailPattern::scales - 1);
+        constexpr std::int32_t min = static_cast<std::int32_t>(DetailPattern::min_level * (1 << 24));
         constexpr std::int32_t max = (levels << 24) - 1;
         const auto exponent = hn::Sub(hn::BitCast(PixelPairInts(), texels2), hn::Set(PixelPairInts(), of_one));
         level_ = hn::BitCast(
-            PixelPairBits(), hn::Min(hn::Max(exponent, hn::Zero(PixelPairInts())), hn::Set(PixelPairInts(), max)));
+            PixelPairBits(), hn::Min(hn::Max(exponent, hn::Set(PixelPairInts(), min)), hn::Set(PixelPairInts(), max)));
     }
 
     HWY_INLINE void look_at(const DetailRays& rays) {
@@ -353,10 +354,9 @@ private:
         }
     }
 
-    /// From scale to scale the first axis is the second one of the scale before, and so on.
     HWY_INLINE hn::Vec<PixelPairInts> place_of(const DetailRays& rays, std::size_t scale, std::size_t axis) const {
         const DetailRays::Scale& of = rays.scales[scale];
-        const auto place_m = at_[(axis + scale) % 3];
+        const auto place_m = at_[axis];
         const auto eye = pair_floats(of.eye[static_cast<glm::length_t>(axis)]);
         return hn::ConvertTo(PixelPairInts(), hn::Add(hn::Mul(place_m, pair_floats(of.parts_per_m)), eye));
     }
@@ -370,15 +370,17 @@ private:
 
 // -- The pattern sampled for one row of a tile.
 
-/// Where a level of each pixel's own lies in the image.
+/// Where a level of each pixel's own lies in the pattern.
 struct OwnLevel {
     hn::Vec<PixelPairBits> level;
 
-    HWY_INLINE hn::Vec<PixelPairBits> last_texel() const { return hn::Shr(pair_bits(DetailImage::side - 1), level); }
+    HWY_INLINE hn::Vec<PixelPairBits> last_texel() const {
+        return hn::Shr(pair_bits(scene::DetailPattern::side_texels - 1), level);
+    }
 
     /// A row of the first layer, counted through all levels.
     HWY_INLINE hn::Vec<PixelPairBits> row(hn::Vec<PixelPairBits> in_level) const {
-        const auto all_rows = pair_bits(2 * DetailImage::rows);
+        const auto all_rows = pair_bits(2 * scene::DetailPattern::rows);
         return hn::Add(hn::Sub(all_rows, hn::Shr(all_rows, level)), in_level);
     }
 
@@ -389,30 +391,37 @@ struct OwnLevel {
 
 /// The finest level for all pixels.
 struct FinestLevel {
-    HWY_INLINE hn::Vec<PixelPairBits> last_texel() const { return pair_bits(DetailImage::side - 1); }
+    HWY_INLINE hn::Vec<PixelPairBits> last_texel() const { return pair_bits(scene::DetailPattern::side_texels - 1); }
 
     HWY_INLINE hn::Vec<PixelPairBits> row(hn::Vec<PixelPairBits> in_level) const { return in_level; }
 
     HWY_INLINE hn::Vec<PixelPairBits> rows(hn::Vec<PixelPairBits> layers) const { return hn::ShiftLeft<6>(layers); }
 };
 
-/// The pattern at places of a level of each, mixed from eight texels: 2^-15, from -1 to 1. Places are as
-/// DetailPositions::fine.
+/// The first row of the pattern of each pair's land, a scene::DetailPattern::Kind. `ground`: PackedGround.
+HWY_INLINE hn::Vec<PixelPairBits> first_rows_of_kinds(hn::Vec<PixelPairBits> ground) {
+    static_assert(scene::LandCoverContrast::first_open_mixture == 64 && 2 * scene::DetailPattern::rows == 64 << 7);
+    return hn::ShiftLeft<7>(hn::AndNot(ground, pair_bits(64)));
+}
+
+/// The pattern at places of a level of each, mixed from eight texels: 2^-15, from -1 to 1. `first_row`:
+/// first_rows_of_kinds(). Places are as DetailPositions::fine.
 template <class Level>
-HWY_INLINE hn::Vec<PixelPairInts> sample_detail_level(
-    const DetailImage& image, const std::array<hn::Vec<PixelPairBits>, 3>& place, const Level& level) {
+HWY_INLINE hn::Vec<PixelPairInts> sample_detail_level(const std::uint16_t* texels, hn::Vec<PixelPairBits> first_row,
+    const std::array<hn::Vec<PixelPairBits>, 3>& place, const Level& level) {
     const PixelPairBits bits;
     const hn::Repartition<std::uint16_t, PixelPairBits> halves;
-    static_assert(DetailImage::side == 1 << 6 && DetailImage::stride == DetailImage::side + 1);
+    static_assert(scene::DetailPattern::side_texels == 1 << 6 &&
+                  scene::DetailPattern::stride == scene::DetailPattern::side_texels + 1);
     const auto last = level.last_texel();
     const auto whole = [&](std::size_t axis) HWY_ATTR { return hn::ShiftRight<8>(place[axis]); };
     const auto column = hn::And(whole(0), last);
-    const auto row = level.row(hn::And(whole(1), last));
+    const auto row = hn::Add(first_row, level.row(hn::And(whole(1), last)));
     const auto four_of = [&](hn::Vec<PixelPairBits> layer) HWY_ATTR {
         const auto row_of_layer = hn::Add(row, level.rows(hn::And(layer, last)));
         const auto texel = hn::Add(hn::Add(hn::ShiftLeft<6>(row_of_layer), row_of_layer), column);
-        return hn::GatherOffset(bits, reinterpret_cast<const std::uint32_t*>(image.texels()),
-            hn::BitCast(PixelPairInts(), hn::Add(texel, texel)));
+        return hn::GatherOffset(
+            bits, reinterpret_cast<const std::uint32_t*>(texels), hn::BitCast(PixelPairInts(), hn::Add(texel, texel)));
     };
     const auto near = four_of(whole(2));
     const auto far = four_of(hn::Add(whole(2), pair_bits(1)));
@@ -472,7 +481,8 @@ struct DetailPositionRow {
 /// haze leaves of it, likewise; 0: no ground. Of both scales together: the squares of their shares are about one, so
 /// that the contrast stays while one gives way to the other while its levels are gone through. A level differs from the
 /// next one by its smallest and faintest features alone: none are mixed.
-HWY_INLINE hn::Vec<PixelPairBits> sample_detail(const DetailImage& image, const DetailPositions& places) {
+HWY_INLINE hn::Vec<PixelPairBits> sample_detail(
+    const std::uint16_t* texels, hn::Vec<PixelPairBits> first_row, const DetailPositions& places) {
     const PixelPairBits bits;
     const PixelPairInts whole;
     const auto share_of = [&](hn::Vec<PixelPairInts> value, hn::Vec<PixelPairInts> share)
@@ -487,20 +497,17 @@ HWY_INLINE hn::Vec<PixelPairBits> sample_detail(const DetailImage& image, const 
         const auto along = [&](std::size_t axis) HWY_ATTR {
             return hn::Sub(hn::Shr(hn::BitCast(bits, places.fine[axis]), of), half_texel);
         };
-        return sample_detail_level(image, {along(0), along(1), along(2)}, OwnLevel{of});
+        return sample_detail_level(texels, first_row, {along(0), along(1), along(2)}, OwnLevel{of});
     };
     const auto on_coarse = [&](std::size_t axis) HWY_ATTR {
-        const auto texels = hn::ShiftRight<scene::DetailPattern::levels_per_scale>(places.fine[axis]);
-        return hn::Sub(hn::BitCast(bits, texels), half_texel);
+        const auto coarse_place = hn::ShiftRight<scene::DetailPattern::levels_per_scale>(places.fine[axis]);
+        return hn::Sub(hn::BitCast(bits, coarse_place), half_texel);
     };
     const auto through = hn::BitCast(whole, hn::And(hn::ShiftRight<17>(places.level), pair_bits(0xff)));
     const auto before = hn::Sub(all, through);
     const auto fine = at_level(level);
-    // Nearest to the eye the finest level is seen alone.
-    auto coarse = hn::Zero(whole);
-    if (!hn::AllTrue(whole, hn::Eq(through, hn::Zero(whole)))) {
-        coarse = sample_detail_level(image, {on_coarse(1), on_coarse(2), on_coarse(0)}, FinestLevel());
-    }
+    const auto coarse =
+        sample_detail_level(texels, first_row, {on_coarse(0), on_coarse(1), on_coarse(2)}, FinestLevel());
     const auto both = hn::Add(share_of(fine, hn::Sub(all, share_of(through, through))),
         share_of(coarse, hn::Sub(all, share_of(before, before))));
     const auto limited = hn::Min(hn::Max(both, hn::Set(whole, -32768)), hn::Set(whole, 32767));
@@ -518,15 +525,21 @@ struct DetailRow {
 /// of these where the ground goes on evenly from one to the other.
 class TileDetailSampler {
 public:
-    HWY_INLINE TileDetailSampler(const TileJob& job, const TileInverseDepths& inverse_depth)
-        : job_(job), inverse_depths_(inverse_depth), tile_rays_(*job.detail_texture, job.first_px),
+    HWY_INLINE TileDetailSampler(const TileJob& job, const TileBuffer& buffer, const TileInverseDepths& inverse_depth)
+        : job_(job), buffer_(buffer), inverse_depths_(inverse_depth), tile_rays_(*job.detail_texture, job.first_px),
           haze_per_depth_(job.detail_texture->haze_per_m * tile_rays_.length()) {
         for (std::size_t row = 0; row < right_edge_values_.size(); row += pairs_at_once) {
             const InverseDepthQuad near = inverse_depths_.right_of_tile(static_cast<int>(row));
             const DetailSampler look(*job_.detail_texture, tile_rays_, tile_rays_.right_of_tile(2 * row), near);
             const DetailPositions places = look.places(*job_.detail_texture, haze_per_depth_);
             right_edge_.put(places, row);
-            hn::Store(sample_detail(detail_image(), places), PixelPairBits(), &right_edge_values_[row]);
+            std::array<std::uint32_t, pairs_at_once> ground{};
+            for (std::size_t i = 0; i < pairs_at_once; ++i) {
+                ground[i] = ground_of_row(static_cast<int>(row + i))[pairs_per_row - 1];
+            }
+            const auto first_row = first_rows_of_kinds(hn::LoadU(PixelPairBits(), ground.data()));
+            hn::Store(sample_detail(job_.detail_texture->texels, first_row, places), PixelPairBits(),
+                &right_edge_values_[row]);
         }
     }
 
@@ -544,12 +557,18 @@ public:
     /// Looks up a row between two of even number; one of these is its own above and below.
     HWY_NOINLINE void look(
         int row, const DetailPositionRow& above, const DetailPositionRow& below, DetailRow& detail_texture) const {
-        const DetailImage& image = detail_image();
+        const PixelPairBits bits;
+        const std::uint16_t* const texels = job_.detail_texture->texels;
+        const std::uint32_t* const ground = ground_of_row(row);
         for (std::size_t i = 0; i < pairs_per_phase; i += pairs_at_once) {
             const DetailPositions a = above.places(i);
             const DetailPositions b = above.places(i + 1);
             const auto looked_up = [&](const DetailPositions& even, const DetailPositions& odd) HWY_ATTR {
-                hn::StoreInterleaved2(sample_detail(image, even), sample_detail(image, odd), PixelPairBits(),
+                hn::Vec<PixelPairBits> even_ground;
+                hn::Vec<PixelPairBits> odd_ground;
+                hn::LoadInterleaved2(bits, ground + phases * i, even_ground, odd_ground);
+                hn::StoreInterleaved2(sample_detail(texels, first_rows_of_kinds(even_ground), even),
+                    sample_detail(texels, first_rows_of_kinds(odd_ground), odd), bits,
                     &detail_texture.seen[phases * i]);
             };
             if (row % 2 == 0) {
@@ -573,6 +592,11 @@ private:
 
     std::size_t right_edge_row(int row) const {
         return static_cast<std::size_t>(std::min(row, inverse_depths_.rows() - 1));
+    }
+
+    /// PackedGround of the pairs of a row; beyond the last row as in it.
+    const std::uint32_t* ground_of_row(int row) const {
+        return buffer_.ground_of_row(2 * std::min(row, inverse_depths_.rows() - 1));
     }
 
     HWY_INLINE DetailPositions found(int row, std::size_t phase, std::size_t first) const {
@@ -624,6 +648,7 @@ private:
     }
 
     const TileJob& job_;
+    const TileBuffer& buffer_;
     const TileInverseDepths& inverse_depths_;
     TileRays tile_rays_;
     float haze_per_depth_;
@@ -810,7 +835,7 @@ private:
 HWY_NOINLINE void add_detail_texture(const TileJob& job, TileBuffer& buffer) {
     const TileInverseDepths inverse_depth(job, buffer);
     if (!inverse_depth.has_ground()) { return; }
-    const TileDetailSampler look(job, inverse_depth);
+    const TileDetailSampler look(job, buffer, inverse_depth);
     std::array<DetailPositionRow, 2> places;
     std::array<DetailRow, tile_height / 2 + 1> seen;
     DetailPositionRow* above = &places[0];

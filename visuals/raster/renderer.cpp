@@ -50,7 +50,6 @@ Renderer::Renderer(std::shared_ptr<ThreadPool> workers, const glm::ivec2& size_p
     info_.device = "processor";
     info_.is_software = true;
     for (int i = 0; i < workers_->threads(); ++i) { thread_scratch_.push_back(std::make_unique<ThreadScratch>()); }
-    detail_image(); // built now, not in the first frame
     resize(size_px, samples);
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "visuals/raster/detail_image.h"
+#include "visuals/raster/detail_rays.h"
 #include "visuals/raster/lit_ground_texture.h"
 #include "visuals/raster/sample_pattern.h"
 #include "visuals/raster/triangle.h"

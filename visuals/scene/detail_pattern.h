@@ -4,26 +4,35 @@
 #include <glm/vec3.hpp>
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
 namespace octant::visuals::scene {
 
-/// The detail pattern of ground: a cube of texels that fills space by repetition without a seam. Ground shows what lies
-/// on its surface, so that the pattern goes on over every edge and slope without stretching. A texel of 128 is the
-/// mean. Space is filled several times, from the finest scale on each `scale_step` times as wide as the one before:
-/// a pixel sees two of them, so that it has contrast however large it is.
-struct DetailPattern {
+/// The detail patterns of ground: cubes of texels that fill space by repetition without a seam. Ground shows what lies
+/// on its surface, so that a pattern goes on over every edge and slope without stretching. A texel of 128 is the mean,
+/// and texels have a normal distribution. Space is filled several times, from the finest scale on each `scale_step`
+/// times as wide as the one before: a pixel sees two of them, so that it has contrast however large it is.
+///
+/// Both patterns are reliefs in the light of the sun: brighter where they rise and where they face it.
+class DetailPattern {
+public:
+    enum class Kind {
+        Open,  ///< uneven ground
+        Crowns ///< domes side by side, and gaps between them
+    };
+
     static constexpr int side_texels = 64;
-    static constexpr float texels_per_m = 8.0F; ///< at the finest scale
-    static constexpr int scales = 7;
+    static constexpr float texels_per_m = 16.0F; ///< at the finest scale
+    static constexpr int scales = 8;
     static constexpr int levels_per_scale = 2; ///< halvings of size from one scale to the next
+    static constexpr int levels = levels_per_scale + 1;
+    /// Of pixels near the eye: they see the second scale, too, so that the first one's repetition is not seen.
+    static constexpr float min_level = 0.45F;
     static constexpr int scale_step = 1 << levels_per_scale;
-    /// Width of the pattern's smallest features, texels of their level.
-    static constexpr int min_feature_texels = 4;
-    /// Unit vectors of the cube's edges in world axes at the finest scale, at right angles; from scale to scale the
-    /// first one is the second one of the scale before, and so on. None of them is parallel to level ground, and the
-    /// ratios of their heights are cube roots of 2 and 4: level ground never shows the same texels twice.
+    /// Unit vectors of the cube's edges in world axes, at right angles. None of them is parallel to level ground, and
+    /// the ratios of their heights are cube roots of 2 and 4: level ground never shows the same texels twice.
     static constexpr std::array<glm::dvec3, 3> axes{glm::dvec3(0.649782467, 0.618047243, 0.442493334),
         glm::dvec3(-0.739147362, 0.377951710, 0.557506666), glm::dvec3(0.177324346, -0.689325837, 0.702414384)};
     /// Standard deviation of all levels; the pattern goes from -1 to 1.
@@ -31,15 +40,35 @@ struct DetailPattern {
     /// Of pictures of 720 lines over 45 degrees.
     static constexpr double nominal_focal_px = 869.0;
 
-    int size = side_texels;
-    /// Texels along the first axis, then the second, then the third.
-    std::vector<std::uint8_t> texels;
+    /// `to_sun`: level, of length 1, in world axes.
+    explicit DetailPattern(const glm::dvec3& to_sun);
+
+    /// How texels() are arranged: of each kind all levels, each of half the size of the one before, in rows along the
+    /// first axis, layers of `side` rows behind one another. A texel holds its own value and, in the higher byte, that
+    /// of the one beside it along the second axis, so that two of them, one load, are four around a place, and two
+    /// loads all eight. Each level repeats each way, and each of its rows has its first texel once more behind its
+    /// last.
+    static constexpr int stride = side_texels + 1;         ///< texels from row to row, of all levels
+    static constexpr int rows = side_texels * side_texels; ///< of the first level
+    static constexpr int texels_of_kind = 2 * rows * stride;
+
+    /// The first row of a level; there is room behind the last one.
+    static constexpr int row_of(int level) { return 2 * rows - (2 * rows >> level); }
+
+    const std::uint16_t* texels() const { return texels_.data(); }
+
+    /// A texel of a level, 0..255. Indices along the axes, within the level.
+    std::uint8_t texel(Kind kind, int level, const glm::ivec3& at) const;
+
+private:
+    void write_level(Kind kind, int level, const std::vector<std::uint8_t>& texels);
+
+    std::vector<std::uint16_t> texels_;
 };
 
-/// The pattern with features between four and 32 texels; then levels with half as many texels a side each, without the
-/// features that are smaller than four of theirs and with the contrast of the first: one more than a scale has. The
-/// same bytes on every machine. Made when they are first asked for.
-const std::array<DetailPattern, DetailPattern::levels_per_scale + 1>& detail_mip_levels();
+/// The patterns in the light of a sun of this azimuth, rounded to eighths of a turn. Made when they are first asked
+/// for.
+const DetailPattern& detail_pattern(double sun_azimuth_rad);
 
 /// The width of the cube at a scale.
 double detail_tile_m(int scale);

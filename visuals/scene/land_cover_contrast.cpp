@@ -1,8 +1,7 @@
 #include "visuals/scene/land_cover_contrast.h"
 
-#include "visuals/scene/detail_pattern.h"
-
 #include <glm/common.hpp>
+#include <glm/vec2.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -14,11 +13,15 @@ namespace {
 
 /// Standard deviations of the pattern over which one cover gives way to the other: about four pixels, so that a turn by
 /// half a pixel changes little.
-constexpr double border_width = 2.2;
+constexpr double border_width = 2.3;
 /// Snow thins out over a wider border than one cover meets another, and with less contrast: patches as sharp and as
 /// dark as those look like camouflage.
-constexpr double snow_border_width = 3.4;
-constexpr double snow_contrast = 0.55;
+constexpr double snow_border_width = 5.0;
+constexpr double snow_contrast = 0.4;
+/// Of the brightness of closed woods: lone crowns, with their shade on the ground.
+constexpr float lone_crown_brightness = 0.68F;
+/// Of the mottling of ground between crowns: it is brightest where it is farthest from them, where the pattern is low.
+constexpr float mottling_between_crowns = -0.5F;
 /// Of the difference in hue: means are seldom of the very colours that covers are said to have.
 constexpr double hue_share = 0.45;
 constexpr double min_mean = 1e-3;
@@ -43,31 +46,61 @@ double place_of_share(double share) {
     return low;
 }
 
-/// Two covers, and the place in the pattern from which on the second one is seen.
+/// Two covers. The second one is seen where the pattern is high, but the crowns of woods, the first one, are there.
 struct Mixture {
     LandCover first;
     LandCover second;
-    double border;
+    double border; ///< beyond it the second cover is seen, in standard deviations of the pattern
+    bool has_crowns;
     bool is_snow; ///< the second cover
+
+    /// The share of the second cover at a value of the pattern, in standard deviations.
+    double share_of_second(double deviations) const {
+        const double width = is_snow ? snow_border_width : border_width;
+        const double above = (has_crowns ? -deviations : deviations) - border;
+        return glm::clamp(above / width + 0.5, 0.0, 1.0);
+    }
 };
 
 Mixture mixture_of(int kind, const std::array<LandCover, LandCoverContrast::covers>& covers) {
     const int last = LandCoverContrast::mixture_count - 1;
     const double place = kind == last ? LandCoverContrast::covers : kind * 4.0 / LandCoverContrast::mixture_count;
     const int below = std::min(static_cast<int>(place), LandCoverContrast::covers - 1);
-    const LandCover& second = covers[static_cast<std::size_t>(below)];
-    const LandCover first = below == 0 ? LandCover{second.colour, 0.0F} : covers[static_cast<std::size_t>(below - 1)];
-    return {first, second, place_of_share(1.0 - (place - below)), below == LandCoverContrast::covers - 1};
+    Mixture mixture{
+        {}, covers[static_cast<std::size_t>(below)], place_of_share(1.0 - (place - below)), below == 1, below == 3};
+    mixture.first = below == 0 ? LandCover{mixture.second.colour, 0.0F} : covers[static_cast<std::size_t>(below - 1)];
+    if (mixture.has_crowns) {
+        mixture.first.colour *= lone_crown_brightness;
+        mixture.second.mottling *= mottling_between_crowns;
+    }
+    return mixture;
 }
 
-/// What a pixel shows of a mixture.
-glm::dvec3 shown_of(const Mixture& mixture, double deviations) {
-    const double width = mixture.is_snow ? snow_border_width : border_width;
-    const double second = glm::clamp((deviations - mixture.border) / width + 0.5, 0.0, 1.0);
-    const auto shown = [&](const LandCover& cover) {
-        return glm::dvec3(cover.colour) * (1.0 + static_cast<double>(cover.mottling) * deviations);
+/// Of a normal distribution, by standard deviations.
+double density_at(double deviations) { return std::exp(-0.5 * deviations * deviations); }
+
+/// What a pixel shows of a mixture. `means`: means_of_covers().
+glm::dvec3 shown_of(const Mixture& mixture, const glm::dvec2& means, double deviations) {
+    const auto shown = [&](const LandCover& cover, double mean) {
+        const double change = static_cast<double>(cover.mottling) * (deviations - mean);
+        return glm::dvec3(cover.colour) * std::max(1.0 + change, 0.0);
     };
-    return glm::mix(shown(mixture.first), shown(mixture.second), second);
+    return glm::mix(shown(mixture.first, means.x), shown(mixture.second, means.y), mixture.share_of_second(deviations));
+}
+
+/// The mean of the pattern where each cover of a mixture is seen, in standard deviations: covers are mottled around
+/// their own colours however little of them is seen.
+glm::dvec2 means_of_covers(const Mixture& mixture) {
+    glm::dvec2 sums(0.0);
+    glm::dvec2 weights(1e-9);
+    for (int i = 0; i < LandCoverContrast::pattern_step_count; ++i) {
+        const double at = deviations_at(i);
+        const double second = mixture.share_of_second(at);
+        const glm::dvec2 weight = density_at(at) * glm::dvec2(1.0 - second, second);
+        sums += weight * at;
+        weights += weight;
+    }
+    return sums / weights;
 }
 
 using Shares = std::array<glm::dvec3, LandCoverContrast::pattern_step_count>;
@@ -75,13 +108,14 @@ using Shares = std::array<glm::dvec3, LandCoverContrast::pattern_step_count>;
 /// By what shares of itself the mean of a mixture changes, pattern by pattern.
 Shares shares_of_mixture(const Mixture& mixture) {
     Shares shares{};
+    const glm::dvec2 means = means_of_covers(mixture);
     glm::dvec3 mean(0.0);
     double whole = 0.0;
     for (int i = 0; i < LandCoverContrast::pattern_step_count; ++i) {
         const double at = deviations_at(i);
-        const double weight = std::exp(-0.5 * at * at);
+        const double weight = density_at(at);
         glm::dvec3& shown = shares[static_cast<std::size_t>(i)];
-        shown = shown_of(mixture, at);
+        shown = shown_of(mixture, means, at);
         mean += weight * shown;
         whole += weight;
     }
@@ -107,7 +141,8 @@ std::uint32_t packed_shares(const glm::dvec3& shares) {
 
 } // namespace
 
-LandCoverContrast::LandCoverContrast(const std::array<LandCover, covers>& of) {
+LandCoverContrast::LandCoverContrast(const std::array<LandCover, covers>& of, const DetailPattern& pattern)
+    : pattern_(&pattern) {
     table_.reserve(std::size_t{mixture_count} * pattern_step_count);
     for (int kind = 0; kind < mixture_count; ++kind) {
         for (const glm::dvec3& shares : shares_of_mixture(mixture_of(kind, of))) {

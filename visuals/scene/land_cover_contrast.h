@@ -1,5 +1,7 @@
 #pragma once
 
+#include "visuals/scene/detail_pattern.h"
+
 #include <glm/vec3.hpp>
 
 #include <array>
@@ -26,13 +28,20 @@ public:
     static constexpr int mixture_count = 128;     ///< The numbers of mixtures, halved.
     static constexpr int pattern_step_count = 64; ///< From the pattern's -1 to 1.
 
-    explicit LandCoverContrast(const std::array<LandCover, covers>& of);
+    /// Mixtures from this one on show DetailPattern::Kind::Open, those before it Crowns.
+    static constexpr int first_open_mixture = mixture_count / 2;
+
+    /// The pattern outlives it.
+    LandCoverContrast(const std::array<LandCover, covers>& of, const DetailPattern& pattern);
+
+    const DetailPattern& pattern() const { return *pattern_; }
 
     /// The relative change of red, green and blue, by pattern step and then by mixture: three signed numbers of ten
     /// bits in units of 1/512, red in the highest bits, two unused bits below blue.
     const std::vector<std::uint32_t>& table() const { return table_; }
 
 private:
+    const DetailPattern* pattern_;
     std::vector<std::uint32_t> table_;
 };
 

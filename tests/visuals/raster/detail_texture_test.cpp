@@ -28,10 +28,10 @@ const glm::dvec3 eye_m(1234.5, -567.8, 910.1); ///< of the world, where the patt
 
 /// A place along the pattern's axes at a scale, in texels of its finest level.
 glm::dvec3 texels_of(const glm::dvec3& place_m, int scale) {
-    const double texels_per_m = 8.0 / std::pow(4.0, scale);
+    const double texels_per_m = 16.0 / std::pow(4.0, scale);
     glm::dvec3 along(0.0);
     for (int i = 0; i < 3; ++i) {
-        const glm::dvec3& axis = scene::DetailPattern::axes[static_cast<std::size_t>((i + scale) % 3)];
+        const glm::dvec3& axis = scene::DetailPattern::axes[static_cast<std::size_t>(i)];
         along[i] = texels_per_m * (axis.x * place_m.x + axis.y * place_m.y + axis.z * place_m.z);
     }
     return along;
@@ -52,13 +52,15 @@ const std::array at_eye = places_at_eye();
 std::shared_ptr<const scene::LandCoverContrast> woods_beside_meadows() {
     const scene::LandCover woods{glm::vec3(0.14F, 0.25F, 0.12F), 0.17F};
     const scene::LandCover meadows{glm::vec3(0.37F, 0.47F, 0.22F), 0.08F};
-    return std::make_shared<const scene::LandCoverContrast>(std::array{woods, meadows, woods, meadows});
+    return std::make_shared<const scene::LandCoverContrast>(
+        std::array{woods, meadows, woods, meadows}, scene::detail_pattern(2.0));
 }
 
 std::shared_ptr<const scene::LandCoverContrast> dark_and_bright() {
     const scene::LandCover dark{glm::vec3(0.2F), 0.05F};
     const scene::LandCover bright{glm::vec3(0.6F), 0.05F};
-    return std::make_shared<const scene::LandCoverContrast>(std::array{dark, bright, dark, bright});
+    return std::make_shared<const scene::LandCoverContrast>(
+        std::array{dark, bright, dark, bright}, scene::detail_pattern(2.0));
 }
 
 /// A slope: one over its distance in the picture's upper left corner, its changes to the others.
@@ -102,24 +104,25 @@ glm::dvec3 texels_at(const glm::dvec3& from_eye_m, int scale) {
     return texels_of(from_eye_m, scale) + glm::dvec3(at_eye[static_cast<std::size_t>(scale)]) * 64.0;
 }
 
-/// The pattern in a level between eight texels around a place in texels of the finest one, -1 to 1.
+/// The crowns' pattern in a level between eight texels around a place in texels of the finest one, -1 to 1.
 double pattern_at(double in_level, const glm::dvec3& texels) {
-    const auto& level = scene::detail_mip_levels()[static_cast<std::size_t>(in_level)];
+    const int level = static_cast<int>(in_level);
+    const int size = scene::DetailPattern::side_texels >> level;
     const glm::dvec3 at = texels / std::exp2(in_level) - 0.5;
     const glm::dvec3 low = glm::floor(at);
     const glm::dvec3 part = at - low;
     const auto within = [&](double place) {
         const auto whole = static_cast<std::int64_t>(place);
-        return static_cast<std::size_t>((whole % level.size + level.size) % level.size);
+        return static_cast<int>((whole % size + size) % size);
     };
-    const auto size = static_cast<std::size_t>(level.size);
     double sum = 0.0;
     for (int corner = 0; corner < 8; ++corner) {
         const glm::dvec3 far(corner & 1, corner >> 1 & 1, corner >> 2);
         const glm::dvec3 shares = glm::mix(1.0 - part, part, far);
         const glm::dvec3 texel = low + far;
-        const std::size_t number = (within(texel.z) * size + within(texel.y)) * size + within(texel.x);
-        sum += shares.x * shares.y * shares.z * level.texels[number];
+        sum += shares.x * shares.y * shares.z *
+               scene::detail_pattern(2.0).texel(
+                   scene::DetailPattern::Kind::Crowns, level, {within(texel.x), within(texel.y), within(texel.z)});
     }
     return sum / 128.0 - 1.0;
 }
@@ -139,7 +142,7 @@ Range pattern_around(const glm::dvec2& at_px, const Slope& slope) {
     const double wide_m = std::max(glm::length(seen_from(1.0, 0.0) - here), glm::length(seen_from(0.0, 1.0) - here));
     Range range;
     for (const double off : {-0.75, -0.5, -0.25, 0.0, 0.25}) {
-        const double level = std::clamp(std::log2(8.0 * wide_m) + off, 0.0, 11.99);
+        const double level = std::clamp(std::log2(16.0 * wide_m) + off, 0.45, 13.99);
         const int scale = static_cast<int>(level / 2.0);
         const double through = level / 2.0 - scale;
         for (const double beside : {-1.0, 0.0, 1.0}) { // between two pixels it is even
@@ -170,8 +173,8 @@ Chosen chosen_in(const scene::Picture& picture, const Slope& slope) {
         for (int x = 0; x < slope.columns; ++x) {
             const int level = pixel(picture, x, y).y;
             const Range range = pattern_around(glm::dvec2(x, y) + 0.5, slope);
-            const bool is_bright = range.min > border;
-            const bool is_dark = range.max < -border;
+            const bool is_dark = range.min > border; // the first cover, woods on real ground, are the crowns
+            const bool is_bright = range.max < -border;
             chosen.bright += is_bright ? 1 : 0;
             chosen.dark += is_dark ? 1 : 0;
             chosen.wrong += (is_bright && level < 140) || (is_dark && level > 116) ? 1 : 0;

@@ -69,8 +69,10 @@ scene::DetailTexture strong_detail() {
     const scene::LandCover dark{glm::vec3(0.2F, 0.25F, 0.15F), 0.1F};
     const scene::LandCover bright{glm::vec3(0.6F, 0.55F, 0.5F), 0.1F};
     return {{glm::vec3(0.2F, 0.6F, 0.3F), glm::vec3(0.9F, 0.1F, 0.8F), glm::vec3(0.4F, 0.7F, 0.1F), glm::vec3(0.5F),
-                glm::vec3(0.8F, 0.3F, 0.6F), glm::vec3(0.1F, 0.4F, 0.9F), glm::vec3(0.6F, 0.2F, 0.7F)},
-        std::make_shared<const scene::LandCoverContrast>(std::array{dark, bright, dark, bright})};
+                glm::vec3(0.8F, 0.3F, 0.6F), glm::vec3(0.1F, 0.4F, 0.9F), glm::vec3(0.6F, 0.2F, 0.7F),
+                glm::vec3(0.3F, 0.5F, 0.2F)},
+        std::make_shared<const scene::LandCoverContrast>(
+            std::array{dark, bright, dark, bright}, scene::detail_pattern(2.0))};
 }
 
 scene::Picture drawn(const scene::FramePlan& plan, const glm::ivec2& size_px, int samples, int threads,

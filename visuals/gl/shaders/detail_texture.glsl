@@ -5,8 +5,9 @@
 layout(binding = 2) uniform sampler3D pattern;
 layout(binding = 3) uniform sampler2D contrast;
 
-const float texels_per_m = 8.0;
+const float texels_per_m = 16.0;
 const float texels_a_side = 64.0;
+const int first_open_mixture = 64; // those before it show crowns
 const mat3 pattern_from_world = mat3( // its columns are what the world's axes are in the pattern's
     0.649782467, -0.739147362, 0.177324346,
     0.618047243, 0.377951710, -0.689325837,
@@ -14,9 +15,7 @@ const mat3 pattern_from_world = mat3( // its columns are what the world's axes a
 
 vec3 place_in_pattern(vec3 place_m, int scale) {
     vec3 along_m = pattern_from_world * place_m;
-    int turns = scale % 3;
-    vec3 turned_m = turns == 0 ? along_m : turns == 1 ? along_m.yzx : along_m.zxy;
-    return detail_at_eye[scale].xyz + turned_m * exp2(-2.0 * float(scale)) * texels_per_m / texels_a_side;
+    return detail_at_eye[scale].xyz + along_m * exp2(-2.0 * float(scale)) * texels_per_m / texels_a_side;
 }
 
 // By what share of itself each part of a colour changes. A place is in world axes with the eye at
@@ -26,18 +25,20 @@ vec3 detail_at(vec3 place_m, vec3 across, vec3 down, float covers) {
     if (covers <= 0.0 || detail_at_eye[0].w == 0.0) {
         return vec3(0.0);
     }
-    // Half a level finer than usual: the pattern's finest features are four texels wide.
+    // Half a level finer than usual: most features are eight texels wide.
     float texels_at_level_0 = detail_at_eye[0].w;
     float width2 = max(dot(across, across), 0.5 * dot(down, down)) * texels_at_level_0 * texels_at_level_0;
-    float level = clamp(0.5 * log2(max(width2, 1.0)), 0.0, 11.99);
+    float level = clamp(0.5 * log2(max(width2, 1.0)), 0.45, 13.99);
     int scale = int(level / 2.0);
     float through = level / 2.0 - float(scale);
     float in_scale = floor(2.0 * through + 0.5);
-    float fine = textureLod(pattern, place_in_pattern(place_m, scale), in_scale).r;
-    float coarse = textureLod(pattern, place_in_pattern(place_m, scale + 1), 0.0).r;
+    int mixture = int(clamp(covers * 127.5 + 0.02, 0.0, 127.0));
+    vec2 fine_of_both = textureLod(pattern, place_in_pattern(place_m, scale), in_scale).rg;
+    vec2 coarse_of_both = textureLod(pattern, place_in_pattern(place_m, scale + 1), 0.0).rg;
+    float fine = mixture < first_open_mixture ? fine_of_both.g : fine_of_both.r;
+    float coarse = mixture < first_open_mixture ? coarse_of_both.g : coarse_of_both.r;
     vec2 sought = (vec2(fine, coarse) * (255.0 / 128.0) - 1.0) *
                   (1.0 - vec2(through * through, (1.0 - through) * (1.0 - through)));
-    ivec2 entry = ivec2(
-        clamp((sought.x + sought.y) * 32.0 + 32.0, 0.0, 63.0), clamp(covers * 127.5 + 0.02, 0.0, 127.0));
-    return texelFetch(contrast, entry, 0).rgb * (1023.0 / 512.0) - 1.0;
+    int pattern_step = int(clamp((sought.x + sought.y) * 32.0 + 32.0, 0.0, 63.0));
+    return texelFetch(contrast, ivec2(pattern_step, mixture), 0).rgb * (1023.0 / 512.0) - 1.0;
 }

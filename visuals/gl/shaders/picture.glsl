@@ -12,6 +12,6 @@ layout(std140, binding = 0) uniform Picture {
     mat4 ray_from_pixel; // world axes, one unit deep
     vec4 albedo_place; // texture coordinates of the eye, then their change a metre
     vec4 normal_place;
-    vec4 detail_at_eye[7]; // the eye's place in the detail texture at each scale, in cubes; texels a metre; 0 = none
+    vec4 detail_at_eye[8]; // the eye's place in the detail texture at each scale, in cubes; texels a metre; 0 = none
 };
 #endif

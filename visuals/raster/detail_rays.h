@@ -9,33 +9,8 @@
 
 #include <array>
 #include <cstdint>
-#include <vector>
 
 namespace octant::visuals::raster {
-
-/// The detail texture of ground, in mip levels of half the size each, all in one list: where a texel of any level lies
-/// follows from shifts. A texel holds its own value and that of the one beside it along the second axis, so that two of
-/// them, one load, are four around a place, and two loads all eight. Each level repeats each way, and each of its rows
-/// along the first axis has its first texel once more behind its last.
-class DetailImage {
-public:
-    static constexpr int side = scene::DetailPattern::side_texels;
-    static constexpr int stride = side + 1;  ///< texels from row to row, of all levels
-    static constexpr int rows = side * side; ///< of the first level, a layer of `side` rows behind the other
-
-    DetailImage();
-
-    /// The first row of a level; there is room behind the last one.
-    static constexpr int row_of(int level) { return 2 * rows - (2 * rows >> level); }
-
-    const std::uint16_t* texels() const { return texels_.data(); }
-
-private:
-    std::vector<std::uint16_t> texels_;
-};
-
-/// The one that all renderers share.
-const DetailImage& detail_image();
 
 /// What pixels need to look into the pattern, and how much of it the haze leaves.
 struct DetailRays {
@@ -54,6 +29,7 @@ struct DetailRays {
     float haze_per_m = 0.0F; ///< as Light
     float haze_falloff_per_m = 0.0F;
     const std::uint32_t* contrast = nullptr; ///< scene::LandCoverContrast::table()
+    const std::uint16_t* texels = nullptr;   ///< scene::DetailPattern::texels()
 };
 
 /// For a plan with a detail texture.

@@ -1,4 +1,4 @@
-#include "visuals/raster/detail_image.h"
+#include "visuals/raster/detail_rays.h"
 
 #include "visuals/scene/detail_pattern.h"
 
@@ -16,21 +16,6 @@ namespace {
 
 using scene::DetailPattern;
 
-/// Writes a level's texels from its first row on.
-void write_level(const DetailPattern& pattern, std::uint16_t* to) {
-    const auto size = static_cast<std::size_t>(pattern.size);
-    for (std::size_t row = 0; row < size * size; ++row) {
-        const std::size_t beside_row = row / size * size + (row + 1) % size;
-        const std::uint8_t* const own = &pattern.texels[row * size];
-        const std::uint8_t* const beside = &pattern.texels[beside_row * size];
-        std::uint16_t* const line = to + row * DetailImage::stride;
-        for (std::size_t column = 0; column <= size; ++column) {
-            const std::size_t from = column % size;
-            line[column] = static_cast<std::uint16_t>(own[from] | beside[from] << 8);
-        }
-    }
-}
-
 /// The part along an axis of each pixel's line of sight, one unit deep: `of_view` has that part of the directions
 /// right, up and backwards.
 AttributePlane ray_part(const glm::dvec3& of_view, const glm::dmat4& view_to_clip, const glm::dvec2& half_px) {
@@ -46,18 +31,6 @@ AttributePlane ray_part(const glm::dvec3& of_view, const glm::dmat4& view_to_cli
 }
 
 } // namespace
-
-DetailImage::DetailImage() : texels_(std::size_t{2 * rows} * stride) {
-    int level = 0;
-    for (const DetailPattern& pattern : scene::detail_mip_levels()) {
-        write_level(pattern, &texels_[static_cast<std::size_t>(row_of(level++)) * stride]);
-    }
-}
-
-const DetailImage& detail_image() {
-    static const DetailImage image;
-    return image;
-}
 
 DetailRays detail_rays(const scene::FramePlan& plan, const Projection& projection) {
     assert(plan.detail_texture && plan.detail_texture->contrast);
@@ -78,14 +51,14 @@ DetailRays detail_rays(const scene::FramePlan& plan, const Projection& projectio
         const float texels_per_m_of_scale =
             std::ldexp(DetailPattern::texels_per_m, -DetailPattern::levels_per_scale * static_cast<int>(scale));
         const glm::vec3& in_next = plan.detail_texture->at_eye[scale + 1];
-        const glm::vec3 in_own(in_next.z, in_next.x, in_next.y); // its first axis is the second one here
         rays.scales[scale] = {
-            in_own * (DetailPattern::scale_step * parts_a_tile), parts_a_texel * texels_per_m_of_scale};
+            in_next * (DetailPattern::scale_step * parts_a_tile), parts_a_texel * texels_per_m_of_scale};
     }
     const scene::Haze& haze = plan.haze;
     rays.haze_per_m = haze.visibility_m > 0.0F ? 1.0F / haze.visibility_m : 0.0F;
     rays.haze_falloff_per_m = haze.falloff_per_m;
     rays.contrast = plan.detail_texture->contrast->table().data();
+    rays.texels = plan.detail_texture->contrast->pattern().texels();
     return rays;
 }
 
