@@ -130,7 +130,8 @@ struct PaintStep {
         Aircraft,
         /// Meshes of FramePlan::refined are drawn without their back faces.
         Refined,
-        /// Indices of FramePlan::overlay are blended by their alpha; later steps draw over them.
+        /// Indices of FramePlan::overlay are blended by their alpha, with DepthUse::Nearest where they are nearer than
+        /// the depth buffer, without a change of it; later steps draw over them.
         Transparent,
         /// Indices of FramePlan::overlay are blended by their alpha, after all other steps.
         Overlay
@@ -217,6 +218,9 @@ struct OverlayVertex {
     glm::vec2 at_px{0.0F};
     /// As ColourVertex::colour; alpha says how much of the picture it covers.
     std::uint32_t colour = 0;
+    /// As in the depth buffer, for steps that use it: the near plane's distance over that of the vertex, both along the
+    /// optical axis.
+    float depth = 0.0F;
 };
 
 /// Triangles drawn over the picture in their order, either way round, blended by their alpha. Memory as TriangleDraw.
