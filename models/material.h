@@ -34,6 +34,8 @@ struct Material {
     std::string emissive_picture = {};
     /// The share of what is behind that it hides, 0..1.
     float opacity = 1.0F;
+    /// Mirrors its surroundings as glass does though it is opaque. Only of polygon models.
+    bool is_mirror = false;
 };
 
 /// Surfaces of less opacity are transparent, such as the glass of canopies; readers leave out those of less than
@@ -42,6 +44,8 @@ inline constexpr float opaque_from_opacity = 0.98F;
 inline constexpr float seen_from_opacity = 0.02F;
 
 inline bool is_transparent(const Material& material) { return material.opacity < opaque_from_opacity; }
+
+inline bool is_glass(const Material& material) { return is_transparent(material) || material.is_mirror; }
 
 /// Puts a decoded picture on a material whose file does not say what the picture's alpha does.
 void set_picture(Material& material, std::shared_ptr<const TexturePicture> picture);

@@ -151,6 +151,7 @@ private:
         if (used != materials_.end()) { return material_ = used->second; }
         const auto known = read_materials_.find(*material_name_);
         Material made = known == read_materials_.end() ? Material{.name = *material_name_} : known->second;
+        made.is_mirror = false; // of meshes only what is transparent counts as glass
         if (picture_.picture != BakedPictures::none && made.colour == glm::vec3(0.0F)) {
             made.colour = glm::vec3(1.0F); // written by programs that mean the picture alone
         }

@@ -55,6 +55,9 @@ public:
                 const auto value = text_.take_number();
                 if (!value || *value < 0.0 || *value > 1.0) { continue; }
                 set_opacity(*value, keyword == "d");
+            } else if (keyword == "illum" && !made_.materials.empty() && text_.words().size() == 1) {
+                const std::string_view model = text_.words().front();
+                made_.materials.back().is_mirror = model == "5" || model == "7";
             }
         }
         return std::move(made_);

@@ -27,7 +27,8 @@ struct MtlPicture {
 
 /// What an MTL file says about its materials.
 struct MtlFile {
-    /// `newmtl NAME`, its `Kd R G B` as display values and its opacity, `d`, else 1 - `Tr`; in file order.
+    /// `newmtl NAME`, its `Kd R G B` as display values, its opacity, `d`, else 1 - `Tr`, and whether it is a mirror,
+    /// `illum 5` or `7` (reflection with Fresnel's law); in file order.
     std::vector<Material> materials;
     std::vector<std::pair<std::string, MtlPicture>> pictures;           ///< material and `map_Kd`, in file order
     std::vector<std::pair<std::string, std::string>> emissive_pictures; ///< material and the file of `map_Ke`

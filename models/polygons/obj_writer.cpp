@@ -42,6 +42,7 @@ std::string mtl_text(const PolygonModel& model) {
     for (const Material& material : model.materials) {
         text += fmt::format(
             "newmtl {}\nKd {} {} {}\n", material.name, material.colour.x, material.colour.y, material.colour.z);
+        if (material.is_mirror) { text += "illum 5\n"; }
     }
     return text;
 }

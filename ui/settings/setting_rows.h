@@ -273,8 +273,7 @@ inline constexpr std::tuple surface{
     setting<&RunSettings::surface, &SurfaceSettings::shadows>(
         {"shadows", "", "shadows of aircraft, trees and houses on the ground"}, {.group = Surface, .change = Picture}),
     setting<&RunSettings::surface, &SurfaceSettings::effects>(
-        {"effects", "", "rotor discs, exhaust, afterburners and wingtip vapour"},
-        {.group = Surface, .change = Picture}),
+        {"effects", "", "exhaust, afterburners and wingtip vapour"}, {.group = Surface, .change = Picture}),
     setting<&RunSettings::surface, &SurfaceSettings::aircraft_error_px>(
         {"aircraft-error-px", "PIXELS", "largest screen-space error of aircraft meshes", 0.01, 100.0},
         {.group = Surface, .change = Picture}),

@@ -116,7 +116,7 @@ void check_ground_texture(const scene::AirSettings& air, const std::string& terr
     }
 }
 
-/// What is seen through is painted in order and has no depth.
+/// Clouds and the ribbon have a place in the order of the whole scene, and none by depth.
 void check_transparency(const RunSettings& settings) {
     const auto refuse_depth = [&](const char* option, bool is_on) {
         if (is_on && settings.surface.hidden_surface == scene::HiddenSurface::DepthBuffer) {
@@ -125,7 +125,6 @@ void check_transparency(const RunSettings& settings) {
         }
     };
     refuse_depth("--clouds", settings.air.clouds > 0.0);
-    refuse_depth("--effects", settings.surface.effects);
     refuse_depth("--show path-ribbon", settings.view.path_ribbon);
     if (settings.view.path_ribbon && settings.path.name == live_path) {
         throw Error("--show path-ribbon: expected a path or a track, got what others fly");

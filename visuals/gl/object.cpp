@@ -121,10 +121,12 @@ Object make_vertex_array(const Functions& gl, const char* label, GLuint indices,
         const auto offset = static_cast<GLuint>(input.offset);
         gl.enable_vertex_array_attrib(name, input.place);
         switch (input.kind) {
+        case VertexInput::Kind::Float:
         case VertexInput::Kind::Floats2:
         case VertexInput::Kind::Floats3:
-            gl.vertex_array_attrib_format(
-                name, input.place, input.kind == VertexInput::Kind::Floats2 ? 2 : 3, GL_FLOAT, GL_FALSE, offset);
+            gl.vertex_array_attrib_format(name, input.place,
+                1 + static_cast<GLint>(input.kind) - static_cast<GLint>(VertexInput::Kind::Float), GL_FLOAT, GL_FALSE,
+                offset);
             break;
         case VertexInput::Kind::Colour:
             gl.vertex_array_attrib_format(name, input.place, 4, GL_UNSIGNED_BYTE, GL_TRUE, offset);

@@ -101,10 +101,12 @@ constexpr GLuint flat_tint_input = 10;
 constexpr GLuint on_texture_input = 11;
 constexpr GLuint texture_input = 12;
 constexpr GLuint first_texture_input = 13;
+constexpr GLuint depth_input = 2; ///< of the overlay
 
 /// An input of a vertex shader.
 struct VertexInput {
     enum class Kind {
+        Float,
         Floats2,
         Floats3,
         Colour, ///< four bytes, 255 read as 1

@@ -38,6 +38,8 @@ struct FrameUniforms {
     glm::vec4 to_sun;
     glm::vec4 ambient;
     glm::vec4 sunlight;
+    glm::vec4 mirrored_overhead;
+    glm::vec4 mirrored_below;
     glm::mat4 ray_from_pixel;
     scene::GroundTextureTransforms ground_texture;
     DetailPositions detail_at_eye;
@@ -73,11 +75,13 @@ DetailPositions eye_detail_positions(const FramePlan& plan, const PixelRect& rec
 
 FrameUniforms values_of(const FramePlan& plan, const PixelRect& rect, RowOrder row_order) {
     const float visibility_m = plan.haze.visibility_m;
+    const scene::MirroredSky mirrored = plan.mirrored_sky.value_or(scene::MirroredSky());
     return {plan.view_to_clip * plan.world_to_view,
         glm::vec4(plan.haze.colour, visibility_m > 0.0F ? 1.0F / visibility_m : 0.0F),
         glm::vec4(plan.haze.sunward_colour, plan.haze.falloff_per_m),
         glm::vec4(plan.haze.horizontal_to_sun, 0.0F, 0.0F), glm::vec4(plan.to_sun, 0.0F), glm::vec4(plan.ambient, 0.0F),
-        glm::vec4(plan.sunlight, 0.0F), ray_from_pixel(plan, rect, row_order),
+        glm::vec4(plan.sunlight, 0.0F), glm::vec4(mirrored.overhead, plan.mirrored_sky ? 1.0F : 0.0F),
+        glm::vec4(mirrored.below, 0.0F), ray_from_pixel(plan, rect, row_order),
         plan.ground_texture.value_or(scene::GroundTextureTransforms()), eye_detail_positions(plan, rect)};
 }
 

@@ -223,7 +223,8 @@ OverlayPainter::OverlayPainter(const Functions& gl, DrawState& state)
     : gl_(gl), state_(state), programs_{make_program(gl, "overlay", {overlay_vert, overlay_frag}), {}},
       mesh_(gl, "overlay", overlay_capacity_bytes, sizeof(scene::OverlayVertex),
           {{position_input, VertexInput::Kind::Floats2, offsetof(scene::OverlayVertex, at_px)},
-              {colour_input, VertexInput::Kind::Colour, offsetof(scene::OverlayVertex, colour)}}) {}
+              {colour_input, VertexInput::Kind::Colour, offsetof(scene::OverlayVertex, colour)},
+              {depth_input, VertexInput::Kind::Float, offsetof(scene::OverlayVertex, depth)}}) {}
 
 void OverlayPainter::upload(const scene::OverlayDraw& overlay, const glm::ivec2& size_px) {
     index_count_ = overlay.indices.size();
@@ -241,9 +242,11 @@ void OverlayPainter::draw(const scene::PaintStep& step) {
     state_.cull_back_faces(false);
     state_.use_program(programs_);
     state_.blend(true);
+    gl_.depth_mask(GL_FALSE);
     gl_.bind_vertex_array(mesh_.array.name());
     gl_.draw_elements_base_vertex(
         GL_TRIANGLES, static_cast<GLsizei>(step.count), GL_UNSIGNED_INT, index_offset(step.first), 0);
+    gl_.depth_mask(GL_TRUE);
     state_.blend(false);
     state_.count_draw_call();
 }

@@ -259,6 +259,14 @@ std::uint32_t fan_corner(const models::polygons::PolygonModel& model, std::uint3
     return best;
 }
 
+/// As ModelVertex::colour.
+std::uint32_t drawn_colour(const models::Material& material) {
+    const std::uint32_t colour = models::packed_colour(material.colour);
+    if (!is_glass(material)) { return colour; }
+    const auto alpha = static_cast<std::uint32_t>(std::lround(254.0F * std::clamp(material.opacity, 0.0F, 1.0F)));
+    return (colour & 0x00ffffffU) | alpha << 24U;
+}
+
 class BufferBuilder {
 public:
     BufferBuilder(const models::polygons::PolygonModel& model, std::span<const glm::vec3> normals)
@@ -296,7 +304,7 @@ public:
 private:
     void add_corners(std::size_t polygon) {
         const glm::vec3 normal(models::polygons::normal_of(model_, polygon));
-        const std::uint32_t colour = models::packed_colour(model_.materials[model_.polygons[polygon].material].colour);
+        const std::uint32_t colour = drawn_colour(model_.materials[model_.polygons[polygon].material]);
         const std::optional<std::uint32_t> pivot = models::polygons::pivot_of(model_, polygon);
         const std::uint32_t part = pivot ? *pivot + 1 : 0;
         for (const std::uint32_t vertex : model_.corners(polygon)) {

@@ -77,13 +77,15 @@ struct PieceRange {
     std::uint32_t first = 0;
     std::uint32_t count = 0;
     GroundLayer layer = GroundLayer::Shadow;
+    /// The share of the sunlight that shadows leave; 1 for others.
+    float light = 1.0F;
 };
 
 /// The ground of one frame with the decals and shadows on it.
 struct GroundFrame {
     /// GroundMesher::triangles(), in painting order, whichever way they face.
     scene::TriangleDraw all;
-    /// By ascending triangle, then by ascending layer.
+    /// By ascending triangle, then by ascending layer, then by descending light.
     std::span<const PieceRange> pieces;
     /// Three for each triangle of a piece, numbered as FramePlan::repaint_indices are.
     std::span<const std::uint32_t> piece_indices;

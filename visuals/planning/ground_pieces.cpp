@@ -20,6 +20,7 @@
 #include <numeric>
 #include <optional>
 #include <tuple>
+#include <utility>
 
 namespace octant::visuals::planning {
 
@@ -63,10 +64,10 @@ struct PieceList {
     }
 
     /// Adds the indices from `first` to the end as a piece, if there are any.
-    void add_range(std::uint32_t triangle, GroundLayer layer, std::size_t first) {
+    void add_range(std::uint32_t triangle, GroundLayer layer, std::size_t first, float light = 1.0F) {
         if (indices.size() > first) {
             pieces.push_back({triangle, static_cast<std::uint32_t>(first),
-                static_cast<std::uint32_t>(indices.size() - first), layer});
+                static_cast<std::uint32_t>(indices.size() - first), layer, light});
         }
     }
 
@@ -310,8 +311,15 @@ private:
 
 namespace {
 
-/// Share of a sunlit surface's colour that is left in a shadow.
+/// Share of a sunlit surface's colour that is left where a shadow is darkest.
 constexpr float shadow_share = 0.55F;
+constexpr double sun_diameter_rad = 0.0093;
+/// A shadow has another edge for so many pixels of its penumbra, but at most max_edges.
+constexpr double edge_px = 2.5;
+constexpr int max_edges = 5;
+/// The width of the strips of which an aircraft's shadow is made, as wings and fuselage are, as a share of its half
+/// diagonal: where the penumbra is wider, no place is without sun.
+constexpr double strip_share = 0.15;
 constexpr double min_sun_elevation_deg = 3.0;
 constexpr double min_shadow_px = 2.0;
 constexpr int max_march_steps = 200;
@@ -322,11 +330,41 @@ glm::vec4 unpacked(std::uint32_t colour) {
            255.0F;
 }
 
-/// The colour in shadow. The alpha is darkened, too, if it is the light that reaches the ground.
-std::uint32_t shaded(const glm::vec4& colour, bool is_light) {
-    const float left = is_light ? shadow_share : 1.0F;
+/// The colour where a shadow leaves this share of the light. The alpha is darkened, too, if it is the light that
+/// reaches the ground.
+std::uint32_t shaded(const glm::vec4& colour, bool is_light, float light) {
+    const float left = is_light ? light : 1.0F;
     const auto alpha = static_cast<std::uint32_t>(255.0F * left * colour.w + 0.5F);
-    return (models::packed_colour(glm::vec3(colour) * shadow_share) & 0x00ffffffU) | alpha << 24U;
+    return (models::packed_colour(glm::vec3(colour) * light) & 0x00ffffffU) | alpha << 24U;
+}
+
+/// Moves the sides of a convex polygon that faces the sun outwards, across the sunlight; corners of more than a right
+/// angle are cut off where they leave the circle around the old ones.
+void grow(ViewPolygon& polygon, double by_m, const glm::dvec3& to_sun, ViewPolygon& scratch) {
+    scratch.clear();
+    const auto along = [&](std::size_t from) {
+        const glm::dvec3 side_m = polygon[(from + 1) % polygon.size()].at_m - polygon[from].at_m;
+        const glm::dvec3 seen_m = side_m - glm::dot(side_m, to_sun) * to_sun;
+        return seen_m / std::max(glm::length(seen_m), 1e-9);
+    };
+    glm::dvec3 before = along(polygon.size() - 1);
+    for (std::size_t i = 0; i < polygon.size(); ++i) {
+        const glm::dvec3& corner_m = polygon[i].at_m;
+        const glm::dvec3 after = along(i);
+        const glm::dvec3 out = glm::cross(before, to_sun);
+        const glm::dvec3 next_out = glm::cross(after, to_sun);
+        const double cosine = glm::dot(out, next_out);
+        if (cosine >= 0.0) {
+            scratch.push_back({corner_m + by_m / (1.0 + cosine) * (out + next_out), false});
+        } else {
+            const double half = std::sqrt(0.5 * std::max(1.0 + cosine, 0.0));
+            const double ahead = std::sqrt((1.0 - half) / (1.0 + half)); // tan of a quarter of the turn
+            scratch.push_back({corner_m + by_m * (out + ahead * before), false});
+            scratch.push_back({corner_m + by_m * (next_out - ahead * after), false});
+        }
+        before = after;
+    }
+    polygon.swap(scratch);
 }
 
 /// The volume of the light through a box from its middle down to `path_m` along the light, and `reach_m` beyond.
@@ -404,9 +442,11 @@ Plane side_of(const glm::dvec3& from_m, const glm::dvec3& to_m) {
 
 /// Shadows of aircraft: each polygon that faces the sun is projected along the sunlight onto each triangle of the
 /// ground below and clipped to that triangle. The pieces are opaque and have the triangle's own colours, darkened, so
-/// that overlapping pieces change nothing; decals have shadows of their own. Only the first ground on the way of the
-/// light has the shadow; ground casts no shadow here. The volume in which ground is looked for is that of the
-/// aircraft's own model.
+/// that overlapping pieces of one darkness change nothing; decals have shadows of their own. Around the whole shadow
+/// lies the outer half of its penumbra, as wide as the sun makes it over the light's way from the middle of the
+/// aircraft: the same polygons, grown, in lighter colours and painted before it. Where the penumbra is wider than the
+/// shadow's own strips, all of it is lighter. Only the first ground on the way of the light has the shadow; ground
+/// casts no shadow here. The volume in which ground is looked for is that of the aircraft's own model.
 class ShadowCaster {
 public:
     explicit ShadowCaster(PieceList& pieces) : pieces_(pieces) {}
@@ -428,13 +468,17 @@ public:
         const glm::dvec3 position_m = hull.centre_m - to_sun_ * path_m;
         const AxisAlignedBox& extent = aircraft.model->hull;
         const double size_m = 0.5 * glm::distance(extent.min_m, extent.max_m);
+        const double penumbra_m = 0.5 * sun_diameter_rad * path_m;
+        choose_edges(size_m, penumbra_m, penumbra_m / (view.pixel_rad * glm::length(position_m)));
         // On a slope that falls away from the sun a shadow is longer than on level ground.
-        const double reach_m = 2.0 * size_m / to_sun_.z;
+        const double reach_m = 2.0 * (size_m + penumbra_m) / to_sun_.z;
         if (2.0 * size_m < min_shadow_px * view.pixel_rad * glm::length(position_m) ||
             !scene::in_view(position_m, reach_m, view.frustum)) {
             return;
         }
-        const ConvexVolume volume = shadow_volume_of(hull, to_sun_, path_m, reach_m);
+        OrientedBox casting = hull;
+        casting.half_m += edges_.front().grown_m;
+        const ConvexVolume volume = shadow_volume_of(casting, to_sun_, path_m, reach_m);
 
         struct Look {
             const ConvexVolume& volume;
@@ -448,10 +492,10 @@ public:
             },
             candidates_);
         if (candidates_.empty()) { return; }
-        // The shadow's error is that of the model, drawn out along the light.
+        // The shadow's error is that of the model, drawn out along the light; a small part of the penumbra hides it.
         const double nearest_m = std::max(glm::length(position_m) - reach_m, 0.0);
-        const bool far_model_casts = !aircraft.far_parts.empty() &&
-                                     aircraft.far_error_m / to_sun_.z <= max_error_px * view.pixel_rad * nearest_m;
+        const double hidden_m = std::max(max_error_px * view.pixel_rad * nearest_m, 0.25 * edges_.front().grown_m);
+        const bool far_model_casts = !aircraft.far_parts.empty() && aircraft.far_error_m / to_sun_.z <= hidden_m;
         if (far_model_casts) {
             collect_faces(*aircraft.far_model, aircraft.far_parts);
         } else {
@@ -470,7 +514,35 @@ private:
     struct Face {
         std::size_t first = 0;
         std::size_t count = 0;
+        std::size_t edge = 0; ///< Index into edges_.
     };
+
+    /// One of the outlines of a shadow: its distance from the whole shadow, and the share of light that is left inside.
+    struct Edge {
+        double grown_m = 0.0;
+        float light = shadow_share;
+    };
+
+    /// A polygon's shadow in shadow_parts_, up to its end there.
+    struct Part {
+        std::size_t end = 0;
+        std::size_t edge = 0;
+    };
+
+    /// Fills in edges_, the outermost first, the shadow's own last. `penumbra_m`, `penumbra_px`: the width of the half
+    /// outside.
+    void choose_edges(double size_m, double penumbra_m, double penumbra_px) {
+        const double strip_m = strip_share * size_m;
+        const double dark = (1.0 - static_cast<double>(shadow_share)) * std::min(strip_m / (2.0 * penumbra_m), 1.0);
+        const int count =
+            penumbra_px < 0.5 ? 0 : std::min(static_cast<int>(std::ceil(penumbra_px / edge_px)), max_edges);
+        edges_.clear();
+        for (int i = 0; i < count; ++i) {
+            edges_.push_back(
+                {penumbra_m * (1.0 - (i + 0.5) / count), static_cast<float>(1.0 - dark * (i + 1) / (count + 1))});
+        }
+        edges_.push_back({0.0, static_cast<float>(1.0 - dark)});
+    }
 
     /// The length of the light's path from the middle of the box to the ground; negative if it reaches no ground, or
     /// the middle is below the ground.
@@ -500,17 +572,18 @@ private:
         return -1.0;
     }
 
-    /// Collects the placed polygons that face the sun.
+    /// Collects the placed polygons that face the sun, once for each of edges_.
     void collect_faces(const AircraftModel& model, std::span<const glm::dmat4> parts) {
         faces_.clear();
         face_corners_.clear();
         face_extents_.begin(to_sun_);
         const auto count = static_cast<std::uint32_t>(model.polygons.polygons.size());
-        for (std::uint32_t polygon = 0; polygon < count; ++polygon) {
-            place_polygon(model, parts, polygon, part_);
-            const Plane plane = plane_of(part_);
-            if (glm::dot(plane.normal, to_sun_) > 0.0) {
-                faces_.push_back({face_corners_.size(), part_.size()});
+        for (std::size_t edge = 0; edge < edges_.size(); ++edge) {
+            for (std::uint32_t polygon = 0; polygon < count; ++polygon) {
+                place_polygon(model, parts, polygon, part_);
+                if (glm::dot(plane_of(part_).normal, to_sun_) <= 0.0) { continue; }
+                if (edges_[edge].grown_m > 0.0) { grow(part_, edges_[edge].grown_m, to_sun_, scratch_); }
+                faces_.push_back({face_corners_.size(), part_.size(), edge});
                 face_extents_.add(part_);
                 face_corners_.insert(face_corners_.end(), part_.begin(), part_.end());
             }
@@ -526,8 +599,7 @@ private:
         std::array<Plane, 3> sides;
         for (std::size_t i = 0; i < 3; ++i) { sides[i] = side_of(triangle_[i].at_m, triangle_[(i + 1) % 3].at_m); }
         shadow_parts_.clear();
-        shadow_ends_.clear();
-        const std::size_t first = pieces_.indices.size();
+        part_ends_.clear();
         face_extents_.find(triangle_, faces_on_triangle_);
         if (faces_on_triangle_.empty()) { return; }
         const std::uint32_t* const corners_of_triangle = &ground_->triangles.indices[std::size_t{3} * triangle];
@@ -535,28 +607,38 @@ private:
             corner_colours_[i] = unpacked(ground_->triangles.vertices[corners_of_triangle[i]].colour);
         }
         surface_ = scene::surface_of(ground_->triangles, ground_->water, corners_of_triangle);
-        for (const std::uint32_t number : faces_on_triangle_) {
-            const Face& face = faces_[number];
-            const auto corners = std::span(face_corners_).subspan(face.first, face.count);
-            part_.assign(corners.begin(), corners.end());
-            clip_to_front(part_, plane, 0.0, scratch_);
-            for (ViewVertex& corner : part_) { corner.at_m -= to_sun_ * (distance_m(plane, corner.at_m) / slope); }
-            const std::size_t before = shadow_parts_.size();
-            shadow_parts_.insert(shadow_parts_.end(), part_.begin(), part_.end());
-            for (std::size_t i = 0; i < 3 && !part_.empty(); ++i) { clip_to_front(part_, sides[i], 0.0, scratch_); }
-            if (part_.size() >= 3) {
-                add_piece();
-                shadow_ends_.push_back(shadow_parts_.size());
-            } else {
-                shadow_parts_.resize(before);
+        auto next = faces_on_triangle_.begin();
+        for (std::size_t edge = 0; edge < edges_.size(); ++edge) {
+            const std::size_t first = pieces_.indices.size();
+            for (; next != faces_on_triangle_.end() && faces_[*next].edge == edge; ++next) {
+                const Face& face = faces_[*next];
+                const auto corners = std::span(face_corners_).subspan(face.first, face.count);
+                part_.assign(corners.begin(), corners.end());
+                clip_to_front(part_, plane, 0.0, scratch_);
+                for (ViewVertex& corner : part_) { corner.at_m -= to_sun_ * (distance_m(plane, corner.at_m) / slope); }
+                const std::size_t before = shadow_parts_.size();
+                shadow_parts_.insert(shadow_parts_.end(), part_.begin(), part_.end());
+                for (std::size_t i = 0; i < 3 && !part_.empty(); ++i) { clip_to_front(part_, sides[i], 0.0, scratch_); }
+                if (part_.size() >= 3) {
+                    add_piece(edges_[edge].light);
+                    part_ends_.push_back({shadow_parts_.size(), edge});
+                } else {
+                    shadow_parts_.resize(before);
+                }
             }
+            pieces_.add_range(triangle, GroundLayer::Shadow, first, edges_[edge].light);
         }
-        pieces_.add_range(triangle, GroundLayer::Shadow, first);
-        if (!pieces_.decals.empty() && !shadow_ends_.empty()) { add_on_decals(triangle); }
+        if (!pieces_.decals.empty() && !part_ends_.empty()) { add_on_decals(triangle); }
+    }
+
+    /// As depth_offset_factor(); by depth a dark shadow is in front of a lighter one by up to 128 float steps.
+    float depth_factor(GroundLayer layer, float light) const {
+        const float factor = depth_offset_factor(layer);
+        return ground_->is_front_to_back ? factor - (1.0F - light) * 0x1p-16F : factor;
     }
 
     /// Adds part_ as a fan with the colours of triangle_, darkened.
-    void add_piece() {
+    void add_piece(float light) {
         const glm::dvec3& a = triangle_[0].at_m;
         const glm::dvec3& b = triangle_[1].at_m;
         const glm::dvec3& c = triangle_[2].at_m;
@@ -567,7 +649,8 @@ private:
             const glm::vec4 colour = corner_colours_[0] * static_cast<float>(share_a) +
                                      corner_colours_[1] * static_cast<float>(share_b) +
                                      corner_colours_[2] * static_cast<float>(1.0 - share_a - share_b);
-            pieces_.vertices->push_back({glm::vec3(at.at_m), shaded(colour, ground_->has_light_in_alpha)});
+            pieces_.vertices->push_back({glm::vec3(at.at_m) * depth_factor(GroundLayer::Shadow, light),
+                shaded(colour, ground_->has_light_in_alpha, light)});
         }
         pieces_.add_fan(part_.size(), surface_);
     }
@@ -575,28 +658,34 @@ private:
     /// Adds the shadows on a triangle again, clipped to its decals and in their darkened colours.
     void add_on_decals(std::uint32_t triangle) {
         const auto triangle_of = [&](std::uint32_t decal) { return pieces_.decals[decal].triangle; };
-        auto own = std::ranges::lower_bound(decals_by_triangle_, triangle, {}, triangle_of);
-        const std::size_t first = pieces_.indices.size();
-        for (; own != decals_by_triangle_.end() && triangle_of(*own) == triangle; ++own) {
-            const GroundDecal& decal = pieces_.decals[*own];
-            const auto corners = pieces_.corners_of(decal);
-            std::size_t begin = 0;
-            for (const std::size_t end : shadow_ends_) {
-                part_.assign(shadow_parts_.begin() + static_cast<std::ptrdiff_t>(begin),
-                    shadow_parts_.begin() + static_cast<std::ptrdiff_t>(end));
-                begin = end;
-                for (std::size_t i = 0; i < corners.size() && !part_.empty(); ++i) {
-                    const glm::dvec3& next_m = corners[i + 1 < corners.size() ? i + 1 : 0];
-                    clip_to_front(part_, side_of(corners[i], next_m), 0.0, scratch_);
-                }
-                for (const ViewVertex& at : part_) {
-                    pieces_.vertices->push_back({glm::vec3(at.at_m) * depth_offset_factor(GroundLayer::ShadowOnDecal),
-                        shaded(unpacked(decal.colour), false)});
-                }
-                pieces_.add_fan(part_.size(), decal.surface);
-            }
+        const auto own = std::ranges::equal_range(decals_by_triangle_, triangle, {}, triangle_of);
+        for (std::size_t edge = 0; edge < edges_.size(); ++edge) {
+            const std::size_t first = pieces_.indices.size();
+            for (const std::uint32_t decal : own) { add_on_decal(pieces_.decals[decal], edge); }
+            pieces_.add_range(triangle, GroundLayer::ShadowOnDecal, first, edges_[edge].light);
         }
-        pieces_.add_range(triangle, GroundLayer::ShadowOnDecal, first);
+    }
+
+    void add_on_decal(const GroundDecal& decal, std::size_t edge) {
+        const auto corners = pieces_.corners_of(decal);
+        const float light = edges_[edge].light;
+        const float factor = depth_factor(GroundLayer::ShadowOnDecal, light);
+        std::size_t begin = 0;
+        for (const Part& part : part_ends_) {
+            const std::size_t first = std::exchange(begin, part.end);
+            if (part.edge != edge) { continue; }
+            part_.assign(shadow_parts_.begin() + static_cast<std::ptrdiff_t>(first),
+                shadow_parts_.begin() + static_cast<std::ptrdiff_t>(part.end));
+            for (std::size_t i = 0; i < corners.size() && !part_.empty(); ++i) {
+                const glm::dvec3& next_m = corners[i + 1 < corners.size() ? i + 1 : 0];
+                clip_to_front(part_, side_of(corners[i], next_m), 0.0, scratch_);
+            }
+            for (const ViewVertex& at : part_) {
+                pieces_.vertices->push_back(
+                    {glm::vec3(at.at_m) * factor, shaded(unpacked(decal.colour), false, light)});
+            }
+            pieces_.add_fan(part_.size(), decal.surface);
+        }
     }
 
     void sort_decals() {
@@ -612,6 +701,7 @@ private:
     glm::dvec3 to_sun_{0.0, 0.0, 1.0};
     std::vector<std::uint32_t> decals_by_triangle_; ///< Indices into PieceList::decals.
     std::vector<std::uint32_t> candidates_;
+    std::vector<Edge> edges_;
     std::vector<Face> faces_;
     std::vector<ViewVertex> face_corners_;
     LightExtents face_extents_;                    ///< Of faces_.
@@ -620,9 +710,9 @@ private:
     std::array<glm::vec4, 3> corner_colours_{}; ///< Of triangle_.
     models::SurfaceClass surface_ = models::SurfaceClass::Terrain;
     ViewPolygon part_;
-    /// The shadows in one triangle's plane that intersect it, not clipped to it, and the end of each in that list.
+    /// The shadows in one triangle's plane that intersect it, not clipped to it, and where each ends in that list.
     std::vector<ViewVertex> shadow_parts_;
-    std::vector<std::size_t> shadow_ends_;
+    std::vector<Part> part_ends_;
     ViewPolygon scratch_;
 };
 
@@ -656,8 +746,8 @@ void GroundPieces::cast(
 
 GroundFrame GroundPieces::finish() {
     PieceList& list = memory_->list;
-    std::ranges::sort(
-        list.pieces, {}, [](const PieceRange& piece) { return std::tuple(piece.triangle, piece.layer, piece.first); });
+    std::ranges::sort(list.pieces, {},
+        [](const PieceRange& piece) { return std::tuple(piece.triangle, piece.layer, -piece.light, piece.first); });
     return {memory_->triangles, list.pieces, list.indices};
 }
 

@@ -96,8 +96,8 @@ public:
     }
 
     /// Adds a range of the plan's overlay as transparent things.
-    void add_transparent(const TransparentRange& range) {
-        add_range(scene::PaintStep::Content::Transparent, range.first, range.count, scene::DepthUse::None);
+    void add_transparent(const TransparentRange& range, scene::DepthUse depth) {
+        add_range(scene::PaintStep::Content::Transparent, range.first, range.count, depth);
     }
 
     /// Adds the plan's overlay from an index on.
@@ -494,9 +494,8 @@ private:
         steps_.add_shadows_by_depth(frame_->ground);
         steps_.add_sky(scene::DepthUse::InfinitelyFar);
         for (auto i = near_to_far_.rbegin(); i != near_to_far_.rend(); ++i) {
-            for (const Transparent& one : transparents_of(*i)) {
-                if (one.place == Transparent::Place::Glass && !placed[*i].is_absent) { paint_transparent(one); }
-            }
+            if (placed[*i].is_absent) { continue; }
+            for (const Transparent& one : transparents_of(*i)) { paint_transparent(one, scene::DepthUse::Nearest); }
         }
     }
 
@@ -513,7 +512,7 @@ private:
         if (frame_->transparents.cloud_height_m()) {
             paint_groups(true);
             for (const Transparent& one : frame_->transparents.list()) {
-                if (one.place == Transparent::Place::CloudLayer) { paint_transparent(one); }
+                if (one.place == Transparent::Place::CloudLayer) { paint_transparent(one, scene::DepthUse::None); }
             }
         }
         if (!from_above) { steps_.add_ground(); }
@@ -588,57 +587,73 @@ private:
             const int b_stage = stage_of(b);
             return a_stage != b_stage ? a_stage < b_stage : is_nearer(boxes_, b.box, a.box);
         });
-        auto next = group_transparents_.begin();
-        for (; next != group_transparents_.end() && stage_of(*next) < static_cast<int>(Transparent::Place::Glass);
-             ++next) {
-            paint_transparent(*next);
-        }
-        const bool is_by_depth = !members_.empty() && paint_members(group);
-        for (; next != group_transparents_.end(); ++next) {
-            if (next->place != Transparent::Place::Glass || is_by_depth) { paint_transparent(*next); }
-        }
-    }
-
-    /// Paints the aircraft of a group: one alone in the order of its polygons, several polygon by polygon, and by
-    /// depth, without their glass, where one is a mesh or has glass, which must not be painted twice. Returns whether
-    /// by depth.
-    bool paint_members(const OverlapGroup& group) {
-        const bool has_mesh = std::ranges::any_of(members_, [](const PlacedAircraft* one) { return is_mesh(*one); });
-        const bool any_glass = std::ranges::any_of(members_, [](const PlacedAircraft* one) { return has_glass(*one); });
+        const auto first_after = std::ranges::find_if(group_transparents_,
+            [&](const Transparent& one) { return stage_of(one) >= static_cast<int>(Transparent::Place::Glass); });
         const bool alone = in_front_.intersecting().empty() && members_.size() == 1;
-        counts_->overlap_groups += alone ? 0 : 1;
-        if (has_mesh || (any_glass && !alone)) {
+        counts_->overlap_groups += members_.empty() || alone ? 0 : 1;
+        if (is_group_by_depth()) {
             paint_members_by_depth(group);
-            return true;
+            for (const Transparent& one : group_transparents_) { paint_transparent(one, scene::DepthUse::Nearest); }
+            return;
         }
+        paint_beside(group, {group_transparents_.begin(), first_after});
         if (alone) {
             add_ranges(*members_.front(), scene::DepthUse::None);
-            return false;
+        } else if (!members_.empty()) {
+            paint_intersecting(group);
         }
-        return paint_intersecting(group);
+        paint_beside(group, {first_after, group_transparents_.end()});
+    }
+
+    /// Whether the aircraft of a group are painted by depth: where one is a mesh, or where what is transparent would
+    /// have to come between polygons that are painted again.
+    bool is_group_by_depth() const {
+        const auto is_between = [&](const Transparent& one) {
+            using enum Transparent::Place;
+            const bool is_effect = one.place == Behind || one.place == InFront;
+            return one.place == Unordered || (one.place == Glass && !in_front_.intersecting().empty()) ||
+                   (members_.size() > 1 && (is_effect || one.place == Glass));
+        };
+        return std::ranges::any_of(members_, [](const PlacedAircraft* one) { return is_mesh(*one); }) ||
+               std::ranges::any_of(group_transparents_, is_between);
+    }
+
+    /// Paints transparent things before the aircraft of their group or after them, behind the ground that intersects
+    /// the group. Those with a place among its polygons are not painted.
+    void paint_beside(const OverlapGroup& group, std::span<const Transparent> things) {
+        if (things.empty()) { return; }
+        const std::span<const std::uint32_t> ground = in_front_.intersecting();
+        if (!ground.empty()) { begin_depth(group); }
+        for (const Transparent& one : things) {
+            if (one.place == Transparent::Place::Glass) { continue; }
+            paint_transparent(one, ground.empty() ? scene::DepthUse::None : scene::DepthUse::Nearest);
+        }
     }
 
     /// Paints aircraft that intersect each other or the ground: polygon by polygon, or by depth where that takes too
-    /// long. Returns whether by depth.
-    bool paint_intersecting(const OverlapGroup& group) {
+    /// long.
+    void paint_intersecting(const OverlapGroup& group) {
         const StepWriter::Checkpoint before = steps_.checkpoint();
         const double rounding_rad = paint_rounding_px * frame_->view.pixel_rad;
         const auto cuts =
             repaint_.paint(members_, group.box, frame_->ground, in_front_.intersecting(), rounding_rad, steps_);
         if (cuts) {
             counts_->cuts += *cuts;
-            return false;
+            return;
         }
         steps_.roll_back(before);
         counts_->unordered += static_cast<int>(members_.size());
         paint_members_by_depth(group);
-        return true;
     }
 
-    /// Paints a group by depth, with no other depth in the buffer than that of the ground that intersects it.
-    void paint_members_by_depth(const OverlapGroup& group) {
+    /// Leaves no other depth in the buffer, where a group is seen, than that of the ground that intersects it.
+    void begin_depth(const OverlapGroup& group) {
         steps_.clear_depth(pixel_box(group.box, plan_, frame_->view.size_px));
         if (!in_front_.intersecting().empty()) { steps_.occlude_by_ground(frame_->ground, in_front_.intersecting()); }
+    }
+
+    void paint_members_by_depth(const OverlapGroup& group) {
+        begin_depth(group);
         for (const PlacedAircraft* member : members_) { paint(*member, scene::DepthUse::Nearest); }
     }
 
@@ -680,9 +695,10 @@ private:
         }
     }
 
-    void paint_transparent(const Transparent& one) {
+    /// `depth`: of the aircraft that are in the buffer. Glass has a range of its own only where they are.
+    void paint_transparent(const Transparent& one, scene::DepthUse depth) {
         if (one.place != Transparent::Place::Glass) {
-            steps_.add_transparent(one.range);
+            steps_.add_transparent(one.range, depth);
             return;
         }
         add_ranges(frame_->fleet.placed()[one.box], scene::DepthUse::Nearest, Ranges::Glass);

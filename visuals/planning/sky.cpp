@@ -354,8 +354,10 @@ void Atmosphere::write(const FrameView& view, scene::FramePlan& plan) {
     plan.sunlight = daylight_.sunlight();
     plan.haze = haze_;
     plan.haze.visibility_m = visibility_m(eye_m.z);
+    plan.mirrored_sky.reset();
     plan.truth.land_has_cover_codes = ground.land_cover_contrast() != nullptr;
     if (settings_.sky) {
+        plan.mirrored_sky = {glm::min(daylight_.sky({0.0, 0.0, 1.0}), glm::vec3(1.0F)), ground.mean_colour()};
         plan.sky = sky_.around({eye_m.z - ground.mean_height_m(), distance_to_edge_m(ground, eye_m),
                                    ground.mean_colour(), view.earth_radius_m},
             plan.haze, eye_m, view.frustum);

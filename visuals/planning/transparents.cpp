@@ -167,8 +167,8 @@ private:
         const auto first = static_cast<std::uint32_t>(vertices_.size());
         for (const TransparentVertex& vertex_out : corners) {
             const glm::vec2 at = glm::vec2(vertex_out.clip) / vertex_out.clip.w;
-            vertices_.push_back(
-                {glm::vec2(0.5F + 0.5F * at.x, 0.5F - 0.5F * at.y) * size_px_, packed(vertex_out.colour)});
+            vertices_.push_back({glm::vec2(0.5F + 0.5F * at.x, 0.5F - 0.5F * at.y) * size_px_,
+                packed(vertex_out.colour), vertex_out.clip.z / vertex_out.clip.w});
         }
         for (std::uint32_t i = 2; i < corners.size(); ++i) {
             indices_.insert(indices_.end(), {first, first + i - 1, first + i});
@@ -193,7 +193,8 @@ namespace {
 constexpr double disc_turns_per_s = 3.0;
 /// The distance by which other parts may reach through a disc's plane, as a share of its radius.
 constexpr double slack = 0.06;
-constexpr int segments = 32; ///< Of a disc.
+/// Blades begin at this share of the radius.
+constexpr double blade_root = 0.3;
 /// The length of a plume.
 constexpr double plume_radii = 9.0;
 /// The length of a trail of vapour.
@@ -229,27 +230,68 @@ std::pair<glm::dvec3, glm::dvec3> across(const glm::dvec3& axis) {
     return {first, glm::cross(axis, first)};
 }
 
-/// Draws a disc. Its coverage falls from the hub to the rim, as the blades cover a smaller share there, and fades out
-/// at the rim.
-void draw_disc(const glm::dvec3& centre_m, const glm::dvec3& axis, double radius_m, Shape& shape) {
+/// The light of a frame, the eye at the origin of world axes.
+struct EffectLight {
+    glm::vec3 ambient;
+    glm::vec3 sunlight;
+    glm::dvec3 to_sun;
+    double pixel_rad = 0.0;
+};
+
+/// A circle of a disc: its radius, its coverage of what is behind and its grey under full light.
+struct DiscRing {
+    double radius; ///< as a share of the disc's
+    double alpha;
+    float grey;
+};
+
+/// Blades cover a larger share near the hub; tips are painted in light colours.
+constexpr std::array disc_rings{DiscRing{0.06, 0.38, 0.2F}, DiscRing{0.25, 0.28, 0.28F}, DiscRing{0.6, 0.21, 0.48F},
+    DiscRing{0.91, 0.17, 0.54F}, DiscRing{0.96, 0.28, 0.9F}, DiscRing{1.0, 0.0, 0.9F}};
+
+/// The segments of a circle whose chords are at most a pixel from it; `radius_px` is above 0.
+int segments_of(double radius_px) {
+    constexpr double max_error_px = 1.0;
+    const double half_rad = std::acos(1.0 - std::min(max_error_px / radius_px, 0.5));
+    return std::clamp(static_cast<int>(std::ceil(pi / half_rad)), 8, 64);
+}
+
+/// Draws a disc, from the light on the side that the eye sees, brighter where the sun is mirrored or shines through. It
+/// fades where it is only a few pixels large.
+void draw_disc(
+    const glm::dvec3& centre_m, const glm::dvec3& axis, double radius_m, const EffectLight& light, Shape& shape) {
+    const glm::dvec3 middle_m(shape.body_to_eye_world * glm::dvec4(centre_m, 1.0));
+    const glm::dvec3 normal(shape.body_to_eye_world * glm::dvec4(axis, 0.0));
+    const double radius_px = radius_m / (light.pixel_rad * std::max(glm::length(middle_m), radius_m));
+    const double share = glm::smoothstep(3.0, 8.0, radius_px);
+    if (share <= 0.0) { return; }
+    const double sun_side = glm::dot(normal, light.to_sun) * (glm::dot(normal, middle_m) > 0.0 ? -1.0 : 1.0);
+    constexpr double let_through = 0.5; // of the light on the other side
+    const double facing = std::max(sun_side, -let_through * sun_side);
+    const glm::vec3 whole = light.ambient + light.sunlight * static_cast<float>(facing);
+    // A line of sight in this direction meets the sun, mirrored or behind the disc.
+    const glm::dvec3 to_glare = sun_side > 0.0 ? glm::reflect(light.to_sun, normal) : light.to_sun;
+    const int segments = segments_of(radius_px);
     const auto [right, up] = across(axis);
-    constexpr std::array rings{0.08, 0.5, 0.93, 1.0};
-    constexpr std::array alphas{0.26, 0.2, 0.16, 0.0};
-    const glm::vec3 grey(0.2F, 0.21F, 0.22F);
-    std::array<std::uint32_t, rings.size()> first{};
-    for (std::size_t ring = 0; ring < rings.size(); ++ring) {
-        first[ring] = static_cast<std::uint32_t>(shape.vertices.size());
-        for (int segment_index = 0; segment_index < segments; ++segment_index) {
-            const double turn = 2.0 * pi * segment_index / segments;
-            shape.add(centre_m + rings[ring] * radius_m * (std::cos(turn) * right + std::sin(turn) * up),
-                clear_colour(grey, alphas[ring]));
+    const auto first = static_cast<std::uint32_t>(shape.vertices.size());
+    for (const DiscRing& ring : disc_rings) {
+        for (int segment = 0; segment < segments; ++segment) {
+            const double turn = 2.0 * pi * segment / segments;
+            const std::uint32_t vertex =
+                shape.add(centre_m + ring.radius * radius_m * (std::cos(turn) * right + std::sin(turn) * up), 0U);
+            const glm::dvec3 way(shape.vertices[vertex].position_m);
+            const double cosine = std::max(glm::dot(way, to_glare) / std::max(glm::length(way), 1e-6), 0.0);
+            const auto glare = static_cast<float>(0.4 * std::pow(cosine, 8.0));
+            const glm::vec3 rgb = glm::min(ring.grey * whole + glare * light.sunlight, glm::vec3(1.0F));
+            shape.vertices[vertex].colour = clear_colour(rgb, share * ring.alpha);
         }
     }
-    for (std::size_t ring = 0; ring + 1 < rings.size(); ++ring) {
-        for (std::uint32_t segment_index = 0; segment_index < segments; ++segment_index) {
-            const std::uint32_t next = (segment_index + 1) % segments;
-            shape.quad(first[ring] + segment_index, first[ring + 1] + segment_index, first[ring + 1] + next,
-                first[ring] + next);
+    const auto count = static_cast<std::uint32_t>(segments);
+    for (std::uint32_t ring = 0; ring + 1 < disc_rings.size(); ++ring) {
+        for (std::uint32_t segment = 0; segment < count; ++segment) {
+            const std::uint32_t inner = first + ring * count;
+            const std::uint32_t next = (segment + 1) % count;
+            shape.quad(inner + segment, inner + count + segment, inner + count + next, inner + next);
         }
     }
 }
@@ -332,25 +374,32 @@ EffectStrength strength_of(const sim::AircraftKind* kind, const sim::AircraftSta
     return strength;
 }
 
-/// The transparent effects around an aircraft: discs of fast rotors and propellers, plumes behind nozzles, vapour
-/// behind wingtips. Each effect has a plane that separates it from the rest of the aircraft, so that it is painted
-/// after the aircraft for eyes on its own side and before it for all others. A rotor without such a plane has no disc.
+/// The transparent effects around an aircraft: discs of fast rotors and propellers, and, where they are asked for,
+/// plumes behind nozzles and vapour behind wingtips. Each effect has a plane that separates it from the rest of the
+/// aircraft: it is painted after the aircraft for eyes on its own side and before it for all others. A disc without
+/// such a plane, as that of a tail rotor beside a cabin, is drawn only on aircraft that are meshes near the eye, by
+/// depth.
 class AircraftEffects {
 public:
-    /// Finds the effects of a model in body axes: discs at its fast pivots, plumes at its parts named as nozzles or
-    /// burners, and, if it has a plume, vapour at its wingtips.
-    explicit AircraftEffects(const PolygonModel& model) {
-        find_discs(model);
-        find_plumes(model);
-        find_vapour(model);
+    /// Finds the effects of a model in body axes: discs at its fast pivots, but not in pictures in the order of the
+    /// 1989 paper, which has none; if the settings say so, plumes at its parts named as nozzles or burners, and, if
+    /// there is one, vapour at its wingtips.
+    AircraftEffects(const AircraftModel& model, const scene::SurfaceSettings& settings) {
+        if (settings.order_method != draworder::OrderMethod::Paper) {
+            find_discs(model.polygons, model.polygon_representation() > 0);
+        }
+        if (settings.effects) {
+            find_plumes(model.polygons);
+            find_vapour(model.polygons);
+        }
     }
 
-    /// The bounds of all effects at any strength, body axes.
-    std::optional<AxisAlignedBox> bounds() const { return effects_.empty() ? std::nullopt : std::optional(extent_); }
+    /// The bounds of plumes and vapour at any strength, body axes. Discs lie in those of their blades.
+    const std::optional<AxisAlignedBox>& bounds() const { return extent_; }
 
-    /// Adds the effects behind the aircraft, or in front of it, to a frame. Rotors in `articulated_parts` have no disc.
-    TransparentRange add(const PlacedAircraft& aircraft, bool in_front, const EffectStrength& strength,
-        std::span<const ArticulatedPart> articulated_parts, TransparentGeometry& geometry) {
+    /// Adds the effects of a place in the painting order to a frame. Rotors in `articulated_parts` have no disc.
+    TransparentRange add(const PlacedAircraft& aircraft, Transparent::Place place, const EffectStrength& strength,
+        std::span<const ArticulatedPart> articulated_parts, const EffectLight& light, TransparentGeometry& geometry) {
         const glm::dmat4& body_to_eye_world = aircraft.parts[0];
         const auto is_articulated = [&](std::uint32_t pivot) {
             return std::ranges::any_of(articulated_parts,
@@ -361,10 +410,10 @@ public:
         indices_.clear();
         Shape shape{body_to_eye_world, vertices_, indices_};
         for (const Effect& effect : effects_) {
-            if ((glm::dot(eye_m - effect.position_m, effect.outward) > 0.0) != in_front) { continue; }
+            if (place_of(effect, eye_m) != place) { continue; }
             if (effect.kind == Kind::Disc) {
                 if (!is_articulated(effect.pivot)) {
-                    draw_disc(effect.position_m, effect.outward, effect.radius_m, shape);
+                    draw_disc(effect.position_m, effect.outward, effect.radius_m, light, shape);
                 }
             } else if (effect.kind == Kind::Plume) {
                 draw_plume(effect.position_m, effect.radius_m, strength, shape);
@@ -386,35 +435,51 @@ private:
         double radius_m = 1.0;
         /// The pivot whose blades a disc shows.
         std::uint32_t pivot = models::invalid_index;
+        /// Whether the plane separates the effect from the rest.
+        bool has_plane = true;
     };
 
-    void find_discs(const PolygonModel& model) {
+    static Transparent::Place place_of(const Effect& effect, const glm::dvec3& eye_m) {
+        if (!effect.has_plane) { return Transparent::Place::Unordered; }
+        const bool in_front = glm::dot(eye_m - effect.position_m, effect.outward) > 0.0;
+        return in_front ? Transparent::Place::InFront : Transparent::Place::Behind;
+    }
+
+    void find_discs(const PolygonModel& model, bool has_meshes) {
         for (std::uint32_t number = 0; number < model.pivots.size(); ++number) {
-            const Pivot& pivot = model.pivots[number];
-            if (std::abs(pivot.turns_per_s) < disc_turns_per_s) { continue; }
-            double radius_m = 0.0;
-            double along_sum_m = 0.0;
-            int corners = 0;
-            for (std::size_t polygon = 0; polygon < model.polygons.size(); ++polygon) {
-                if (model.polygons[polygon].part != pivot.part) { continue; }
-                for (const std::uint32_t vertex : model.corners(polygon)) {
-                    const glm::dvec3 off_m = model.vertices_m[vertex] - pivot.point_m;
-                    const double along_m = glm::dot(off_m, pivot.axis);
-                    radius_m = std::max(radius_m, glm::length(off_m - along_m * pivot.axis));
-                    along_sum_m += along_m;
-                    ++corners;
-                }
-            }
-            if (corners == 0) { continue; }
-            const glm::dvec3 centre_m = pivot.point_m + along_sum_m / corners * pivot.axis;
-            for (const double side : {-1.0, 1.0}) {
-                const glm::dvec3 outward = side * pivot.axis;
-                if (reach_along(model, outward, pivot.part) <= glm::dot(outward, centre_m) + slack * radius_m) {
-                    add_effect({Kind::Disc, centre_m, outward, radius_m, number}, glm::dvec3(0.0));
-                    break;
-                }
+            if (std::abs(model.pivots[number].turns_per_s) < disc_turns_per_s) { continue; }
+            const std::optional<Effect> disc = disc_of(model, number);
+            if (disc && (disc->has_plane || has_meshes)) { effects_.push_back(*disc); }
+        }
+    }
+
+    /// The disc of a pivot, in the plane that touches its blades from one side: of those whose other parts all lie on
+    /// the other side, if one is.
+    static std::optional<Effect> disc_of(const PolygonModel& model, std::uint32_t number) {
+        const Pivot& pivot = model.pivots[number];
+        Effect disc{.kind = Kind::Disc, .radius_m = 0.0, .pivot = number, .has_plane = false};
+        std::vector<glm::dvec2> corners_m; // distances from the axis and along it
+        for (std::size_t polygon = 0; polygon < model.polygons.size(); ++polygon) {
+            if (model.polygons[polygon].part != pivot.part) { continue; }
+            for (const std::uint32_t vertex : model.corners(polygon)) {
+                const glm::dvec3 off_m = model.vertices_m[vertex] - pivot.point_m;
+                const double along_m = glm::dot(off_m, pivot.axis);
+                corners_m.emplace_back(glm::length(off_m - along_m * pivot.axis), along_m);
+                disc.radius_m = std::max(disc.radius_m, corners_m.back().x);
             }
         }
+        if (corners_m.empty()) { return std::nullopt; }
+        for (double side = -1.0; side <= 1.0 && !disc.has_plane; side += 2.0) {
+            double reach_m = -std::numeric_limits<double>::max();
+            for (const glm::dvec2& corner_m : corners_m) {
+                if (corner_m.x >= blade_root * disc.radius_m) { reach_m = std::max(reach_m, side * corner_m.y); }
+            }
+            disc.outward = side * pivot.axis;
+            disc.position_m = pivot.point_m + reach_m * disc.outward;
+            disc.has_plane = reach_along(model, disc.outward, pivot.part) <=
+                             glm::dot(disc.outward, disc.position_m) + slack * disc.radius_m;
+        }
+        return disc;
     }
 
     /// The plane of all plumes is that of the rearmost corner.
@@ -437,7 +502,8 @@ private:
             if (min_m.x > max_m.x) { continue; }
             const double radius_m = 0.42 * std::min(max_m.y - min_m.y, max_m.z - min_m.z);
             const glm::dvec3 position_m(rear_m, 0.5 * (min_m.y + max_m.y), 0.5 * (min_m.z + max_m.z));
-            add_effect({Kind::Plume, position_m, aft, radius_m}, plume_radii * radius_m * aft);
+            add_effect({.kind = Kind::Plume, .position_m = position_m, .outward = aft, .radius_m = radius_m},
+                plume_radii * radius_m * aft);
         }
     }
 
@@ -455,7 +521,8 @@ private:
                     tip_m = at_m;
                 }
             }
-            add_effect({Kind::Vapour, tip_m, outward, vapour_high_m}, {-vapour_m, 0.0, 0.0});
+            add_effect({.kind = Kind::Vapour, .position_m = tip_m, .outward = outward, .radius_m = vapour_high_m},
+                {-vapour_m, 0.0, 0.0});
         }
     }
 
@@ -463,13 +530,13 @@ private:
         const glm::dvec3 half_m(effect.radius_m);
         const glm::dvec3 min_m = glm::min(effect.position_m, effect.position_m + reach_m) - half_m;
         const glm::dvec3 max_m = glm::max(effect.position_m, effect.position_m + reach_m) + half_m;
-        extent_.min_m = effects_.empty() ? min_m : glm::min(extent_.min_m, min_m);
-        extent_.max_m = effects_.empty() ? max_m : glm::max(extent_.max_m, max_m);
+        const AxisAlignedBox before = extent_.value_or(AxisAlignedBox{min_m, max_m});
+        extent_ = AxisAlignedBox{glm::min(before.min_m, min_m), glm::max(before.max_m, max_m)};
         effects_.push_back(effect);
     }
 
     std::vector<Effect> effects_;
-    AxisAlignedBox extent_;
+    std::optional<AxisAlignedBox> extent_;
     /// The corners and triangles of one effect in this frame.
     std::vector<models::ColourVertex> vertices_;
     std::vector<std::uint32_t> indices_;
@@ -639,7 +706,7 @@ struct Transparents::Parts {
     std::optional<nature::CloudLayer> clouds;
     double cloud_height_m = 0.0;
     std::optional<PathRibbon> ribbon;
-    std::vector<AircraftEffects> effects; ///< One for each of Scene::aircraft; empty without effects.
+    std::vector<AircraftEffects> effects; ///< One for each of Scene::aircraft.
     std::vector<std::optional<AxisAlignedBox>> effect_bounds;
     std::vector<Transparent> list;
     std::vector<OrientedBox> boxes;
@@ -651,17 +718,20 @@ struct Transparents::Parts {
         }
     }
 
-    void add_effects(const FrameView& view, const PlanRequest& request, const Fleet& fleet) {
+    void add_effects(
+        const FrameView& view, const PlanRequest& request, const Fleet& fleet, const scene::FramePlan& plan) {
         constexpr double min_px = 6.0; // Smaller aircraft have no effects.
+        const EffectLight light{plan.ambient, plan.sunlight, glm::dvec3(plan.to_sun), view.pixel_rad};
         for (std::size_t i = 0; i < effects.size(); ++i) {
             const OrientedBox& hull = fleet.bounding_boxes()[i];
             const bool is_seen = radius_m(hull) > min_px * view.pixel_rad * glm::length(hull.centre_m);
             if (!is_seen || !in_view(hull, view)) { continue; }
             const EffectStrength strength =
                 strength_of(sim::find_aircraft_kind(scene.model_of(i).polygons.name), request.states[i]);
-            for (const bool in_front : {false, true}) {
-                add(in_front ? Transparent::Place::InFront : Transparent::Place::Behind, i,
-                    effects[i].add(fleet.placed()[i], in_front, strength, request.articulated_parts, geometry));
+            using enum Transparent::Place;
+            for (const Transparent::Place place : {Behind, Unordered, InFront}) {
+                add(place, i,
+                    effects[i].add(fleet.placed()[i], place, strength, request.articulated_parts, light, geometry));
             }
         }
     }
@@ -699,12 +769,10 @@ Transparents::Transparents(const Scene& scene, const scene::Settings& settings, 
         set_daylight(day);
     }
     if (settings.view.path_ribbon && scene.path) { parts_->ribbon.emplace(*scene.path); }
-    if (settings.surface.effects) {
-        for (const std::uint32_t model : scene.aircraft) {
-            parts_->effect_bounds.push_back(parts_->effects.emplace_back(scene.models[model]->polygons).bounds());
-        }
+    for (const std::uint32_t model : scene.aircraft) {
+        const AircraftEffects& effects = parts_->effects.emplace_back(*scene.models[model], settings.surface);
+        parts_->effect_bounds.push_back(effects.bounds());
     }
-    parts_->effect_bounds.resize(scene.aircraft.size());
 }
 
 Transparents::~Transparents() = default;
@@ -725,7 +793,7 @@ void Transparents::make(
         parts.cloud_range = parts.geometry.add(clouds.vertices, clouds.indices);
         parts.add(Transparent::Place::CloudLayer, models::invalid_index, parts.cloud_range);
     }
-    parts.add_effects(view, request, fleet);
+    parts.add_effects(view, request, fleet, plan);
     for (std::size_t i = 0; i < fleet.bounding_boxes().size(); ++i) {
         const PlacedAircraft& aircraft = fleet.placed()[i];
         if (has_glass(aircraft)) { parts.add(Transparent::Place::Glass, i, {}); }

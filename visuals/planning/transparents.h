@@ -31,6 +31,7 @@ struct Transparent {
         Apart,     ///< Has a box of its own: before the group if the centre of that box is farther away, else last.
         Behind,    ///< An effect, painted before its aircraft.
         Glass,     ///< Transparent surfaces of an aircraft that is painted by depth; has no range.
+        Unordered, ///< A disc without a place before or after its aircraft, a mesh: that is painted by depth.
         InFront,   ///< An effect, painted after its aircraft.
         CloudLayer ///< The layer of clouds at Transparents::cloud_height_m(); has no box.
     };
@@ -57,7 +58,7 @@ struct EffectStrength {
 EffectStrength strength_of(const sim::AircraftKind* kind, const sim::AircraftState& state);
 
 /// All transparent things of one view, as one list: a layer of clouds, the first aircraft's path as a ribbon of dashes,
-/// effects around aircraft (discs of fast rotors, plumes, vapour) and glass.
+/// effects around aircraft (discs of fast rotors and propellers; if the settings say so, plumes and vapour) and glass.
 class Transparents {
 public:
     /// The scene must outlive it. Loading work.
@@ -71,12 +72,11 @@ public:
     /// Lights the clouds by another daylight.
     void set_daylight(const nature::Daylight& day);
 
-    /// The bounds of the effects of each of Scene::aircraft at any strength, body axes; nothing for one without
-    /// effects.
+    /// The bounds of plumes and vapour of each of Scene::aircraft at any strength, body axes; nothing for one without.
     std::span<const std::optional<AxisAlignedBox>> effect_bounds() const;
 
-    /// Makes the list of a frame. `fleet` must be placed for this frame. `plan` gives the matrices and the haze; it and
-    /// `fleet` must stay until the next frame.
+    /// Makes the list of a frame. `fleet` must be placed for this frame. `plan` gives the matrices, the light and the
+    /// haze; it and `fleet` must stay until the next frame.
     void make(const FrameView& view, const PlanRequest& request, const Fleet& fleet, const scene::FramePlan& plan);
 
     /// The transparent things of the frame, by ascending `box`.

@@ -492,13 +492,43 @@ HWY_INLINE void record_surface(const TileTriangle& one, const TileJob& job, Tile
         });
 }
 
+HWY_INLINE bool is_transparent_fill(const TileTriangle& one) { return one.triangle->fill == Fill::Transparent; }
+
+HWY_INLINE bool is_transparent_surface(const TileTriangle& one) {
+    return one.extra != nullptr && one.extra->opacity < 1.0F;
+}
+
+/// As record_surface(), of a triangle with Fill::Transparent.
+template <class SeenOf>
+HWY_INLINE void record_fill(const TileTriangle& one, const TileJob& job, TileBuffer& buffer, const SeenOf& seen_of) {
+    for_each_covered(job, buffer, [&](const glm::ivec2& at, std::size_t pixel, std::uint32_t mask) HWY_ATTR {
+        const auto free = mask & ~std::uint32_t{buffer.covered[pixel]};
+        if (free == 0) { return; }
+        const std::uint32_t seen = seen_of(at, pixel, free);
+        if (seen == 0) { return; }
+        const auto sixteenths = [&](std::size_t k) {
+            return sixteenths_of(one.triangle->gradients.level(k, job.first_px + at));
+        };
+        const auto alpha = (sixteenths(3) * 4096U + 2040U) / 4080U;
+        const std::uint32_t share = alpha * static_cast<std::uint32_t>(std::popcount(seen)) >> 4U;
+        record({static_cast<std::uint16_t>(pixel), static_cast<std::uint16_t>(seen),
+                   {sixteenths(0), sixteenths(1), sixteenths(2)}, static_cast<std::uint16_t>(share)},
+            buffer, false);
+    });
+}
+
 /// Records where a transparent triangle is seen: not behind nearer triangles of its group or of others.
-HWY_INLINE void record_surface_by_depth(
+HWY_INLINE void record_by_depth(
     const TileTriangle& one, const TileJob& job, const SampleLanes& lanes, TileBuffer& buffer) {
     const DepthStepper walk(*one.extra, job, lanes);
-    record_surface(one, job, buffer, [&](const glm::ivec2& at, std::size_t pixel, std::uint32_t free) HWY_ATTR {
+    const auto nearer = [&](const glm::ivec2& at, std::size_t pixel, std::uint32_t free) HWY_ATTR {
         return nearer_samples(free, walk.at(at.x, at.y), walk, buffer.depth.data() + pixel * samples);
-    });
+    };
+    if (is_transparent_fill(one)) {
+        record_fill(one, job, buffer, nearer);
+    } else {
+        record_surface(one, job, buffer, nearer);
+    }
 }
 
 /// The samples of a pixel that show a triangle of its group.
@@ -592,9 +622,9 @@ HWY_INLINE void paint_group(
     for (std::size_t i = 0; i < group.size(); ++i) {
         prefetch_triangle(group, i + triangles_ahead);
         cover(group[i], job, lanes, buffer);
-        if (group[i].extra->opacity < 1.0F) {
+        if (is_transparent_fill(group[i]) || is_transparent_surface(group[i])) {
             begin_record(buffer);
-            record_surface_by_depth(group[i], job, lanes, buffer);
+            record_by_depth(group[i], job, lanes, buffer);
         } else {
             draw_by_depth(group[i], static_cast<std::uint32_t>(i + 1), job, lanes, buffer);
         }
@@ -620,30 +650,10 @@ HWY_INLINE void paint_group(
 // so a transparent triangle covers nothing: its uncovered samples are recorded, and blended when the colours behind it
 // are known.
 
-HWY_INLINE bool is_transparent_fill(const TileTriangle& one) { return one.triangle->fill == Fill::Transparent; }
-
-HWY_INLINE bool is_transparent_surface(const TileTriangle& one) {
-    return one.extra != nullptr && one.extra->opacity < 1.0F;
-}
-
 /// Whether a triangle is blended over what was painted before it, without depth.
 HWY_INLINE bool is_blended_in_order(const TileTriangle& one) {
-    return is_transparent_fill(one) || (one.triangle->group == 0 && is_transparent_surface(one));
-}
-
-HWY_INLINE void record_fill(const TileTriangle& one, const TileJob& job, TileBuffer& buffer) {
-    for_each_covered(job, buffer, [&](const glm::ivec2& at, std::size_t pixel, std::uint32_t mask) HWY_ATTR {
-        const auto seen = mask & ~std::uint32_t{buffer.covered[pixel]};
-        if (seen == 0) { return; }
-        const auto sixteenths = [&](std::size_t k) {
-            return sixteenths_of(one.triangle->gradients.level(k, job.first_px + at));
-        };
-        const auto alpha = (sixteenths(3) * 4096U + 2040U) / 4080U;
-        const std::uint32_t share = alpha * static_cast<std::uint32_t>(std::popcount(seen)) >> 4U;
-        record({static_cast<std::uint16_t>(pixel), static_cast<std::uint16_t>(seen),
-                   {sixteenths(0), sixteenths(1), sixteenths(2)}, static_cast<std::uint16_t>(share)},
-            buffer, false);
-    });
+    return is_transparent_fill(one) ? one.triangle->depth == scene::DepthUse::None
+                                    : one.triangle->group == 0 && is_transparent_surface(one);
 }
 
 /// Records where transparent triangles that follow each other in the tile's list are seen.
@@ -651,13 +661,13 @@ HWY_NOINLINE void record_transparent(
     std::span<const TileTriangle> transparents, const TileJob& job, const SampleLanes& lanes, TileBuffer& buffer) {
     const std::size_t first = buffer.transparent_pixels.size();
     begin_record(buffer);
+    const auto all = [](const glm::ivec2&, std::size_t, std::uint32_t free) HWY_ATTR { return free; };
     for (const TileTriangle& one : transparents) {
         cover(one, job, lanes, buffer);
         if (is_transparent_fill(one)) {
-            record_fill(one, job, buffer);
+            record_fill(one, job, buffer, all);
         } else {
-            record_surface(
-                one, job, buffer, [](const glm::ivec2&, std::size_t, std::uint32_t free) HWY_ATTR { return free; });
+            record_surface(one, job, buffer, all);
         }
     }
     end_record(first, buffer);

@@ -380,7 +380,7 @@ HWY_INLINE void count_group(const TileJob& job, const std::array<std::size_t, 2>
     if (box.left > box.right || box.first_row > box.last_row) { return; }
     clear_group(box, buffer);
     for (std::size_t i = 0; i < group.size(); ++i) {
-        if (group[i].triangle->is_under_side) { continue; }
+        if (group[i].triangle->is_under_side || is_transparent_fill(group[i])) { continue; }
         cover(group[i], job, lanes, buffer);
         draw_by_depth(group[i], static_cast<std::uint32_t>(i + 1), job, lanes, buffer);
     }
@@ -418,7 +418,7 @@ void CountSamples(const TileJob& job, const SampleLanes& lanes, const SampleOwne
     while (end > 0 && buffer.full_rows != job.full_rows()) {
         std::size_t first = end - 1;
         const Triangle& triangle = *job.triangles[first].triangle;
-        if (is_transparent_fill(job.triangles[first])) {
+        if (is_transparent_fill(job.triangles[first]) && triangle.depth == scene::DepthUse::None) {
             if (triangle.is_cloud) {
                 cover(job.triangles[first], job, lanes, buffer);
                 count_covered(job, owners, triangle, buffer,
@@ -436,7 +436,8 @@ void CountSamples(const TileJob& job, const SampleLanes& lanes, const SampleOwne
             }
         } else {
             const auto belongs = [&](const TileTriangle& other) HWY_ATTR {
-                return other.triangle->group == triangle.group && !is_transparent_fill(other);
+                return other.triangle->group == triangle.group &&
+                       (!is_transparent_fill(other) || other.triangle->depth != scene::DepthUse::None);
             };
             while (first > 0 && belongs(job.triangles[first - 1])) { --first; }
             count_group(job, {first, end}, lanes, owners, buffer);

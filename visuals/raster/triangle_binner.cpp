@@ -27,8 +27,8 @@ namespace {
 
 constexpr std::size_t task_vertices = 2048;
 
-/// A corner of the overlay at its place in the picture.
-ScreenVertex overlay_vertex(const scene::OverlayVertex& from) {
+/// A corner of the overlay at its place in the picture. `near_m`: the distance of the near plane.
+ScreenVertex overlay_vertex(const scene::OverlayVertex& from, float near_m) {
     constexpr float max_distance_px = 16000.0F;
     ScreenVertex vertex;
     if (!(std::abs(from.at_px.x) <= max_distance_px && std::abs(from.at_px.y) <= max_distance_px)) {
@@ -38,6 +38,7 @@ ScreenVertex overlay_vertex(const scene::OverlayVertex& from) {
     constexpr auto steps = static_cast<float>(ScreenVertex::per_px);
     vertex.x = static_cast<std::int32_t>(std::lrintf((from.at_px.x - 0.5F) * steps));
     vertex.y = static_cast<std::int32_t>(std::lrintf((from.at_px.y - 0.5F) * steps));
+    vertex.inverse_w = from.depth / near_m;
     for (std::size_t i = 0; i < vertex.value.size(); ++i) {
         vertex.value[i] = static_cast<float>(from.colour >> (8 * i) & 0xffU);
     }
@@ -50,7 +51,9 @@ void add_overlay(const scene::OverlayDraw& overlay, std::span<const std::uint32_
     for (std::size_t i = 0; i + 2 < indices.size(); i += 3) {
         setup.set_source(source++);
         std::array<ScreenVertex, 3> corners;
-        for (std::size_t k = 0; k < 3; ++k) { corners[k] = overlay_vertex(overlay.vertices[indices[i + k]]); }
+        for (std::size_t k = 0; k < 3; ++k) {
+            corners[k] = overlay_vertex(overlay.vertices[indices[i + k]], setup.near_m());
+        }
         setup.add_overlay(corners[0], corners[1], corners[2], list);
     }
 }

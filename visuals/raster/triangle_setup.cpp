@@ -182,6 +182,15 @@ bool TriangleSetup::add_affine_triangle(const std::array<const ScreenVertex*, 3>
     return true;
 }
 
+/// The inverse of place().
+ClipPosition TriangleSetup::clip_of(const ScreenVertex& vertex) const {
+    constexpr float px_per_step = 1.0F / static_cast<float>(per_px);
+    const float w = 1.0F / vertex.inverse_w;
+    const float right_px = static_cast<float>(vertex.x) * px_per_step + 0.5F - projection_.half_px.x;
+    const float down_px = static_cast<float>(vertex.y) * px_per_step + 0.5F - projection_.half_px.y;
+    return {right_px / projection_.half_px.x * w, -down_px / projection_.half_px.y * w, w};
+}
+
 void TriangleSetup::add_overlay(
     const ScreenVertex& a, const ScreenVertex& b, const ScreenVertex& c, TriangleList& list) {
     if (((a.outcode | b.outcode | c.outcode) & beyond_range) != 0) { return; }
@@ -189,6 +198,10 @@ void TriangleSetup::add_overlay(
     flat_ = nullptr;
     surface_ = nullptr;
     extra_ = Triangle::none;
+    if (style_.depth != scene::DepthUse::None) {
+        const auto placed = [&](const ScreenVertex& corner) { return ClipVertex{corner, clip_of(corner)}; };
+        add_extra(std::array{placed(a), placed(b), placed(c)}, list);
+    }
     is_overlay_ = true;
     add_placed(a, b, c, list);
     is_overlay_ = false;

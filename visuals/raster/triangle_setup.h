@@ -70,8 +70,11 @@ public:
     void add(const VertexOutputs& corners, const std::array<std::uint32_t, 3>& triangle, const FlatColour* flat,
         TriangleList& list);
 
+    /// The distance of the near plane.
+    float near_m() const { return projection_.near_m; }
+
     /// Appends a triangle of the overlay, whose fourth value is its alpha: Fill::Gouraud over the picture, else
-    /// Fill::Transparent.
+    /// Fill::Transparent. Its corners' `inverse_w` counts only where the step uses depth.
     void add_overlay(const ScreenVertex& a, const ScreenVertex& b, const ScreenVertex& c, TriangleList& list);
 
 private:
@@ -86,6 +89,7 @@ private:
     void cut(const glm::dvec3& by_clip, double offset);
     bool add_affine_triangle(const std::array<const ScreenVertex*, 3>& corners, TriangleList& list);
     Fill fill_of(const std::array<const ScreenVertex*, 3>& corners, bool is_cut) const;
+    ClipPosition clip_of(const ScreenVertex& vertex) const;
     void add_extra(std::span<const ClipVertex, 3> corners, TriangleList& list);
     void add_surface(const std::array<const ScreenVertex*, 3>& corners, Triangle& triangle, TriangleList& list) const;
 

@@ -237,7 +237,9 @@ void take_group(const Tile& tile, std::size_t first, std::size_t end, TileMiddle
     middles.nearest.resize(TileMiddles::pixels);
     std::fill_n(middles.depth.begin() + static_cast<std::ptrdiff_t>(from), count, 0.0F);
     std::fill_n(middles.nearest.begin() + static_cast<std::ptrdiff_t>(from), count, 0U);
-    for (std::size_t place = first; place < end; ++place) { draw_by_depth(tile, place, middles); }
+    for (std::size_t place = first; place < end; ++place) {
+        if (tile.triangles[place].triangle->fill != Fill::Transparent) { draw_by_depth(tile, place, middles); }
+    }
     for (int row = first_row; row <= last_row; ++row) {
         const std::uint32_t* const nearest = middles.nearest.data() + static_cast<std::size_t>(row) * tile_width;
         std::uint64_t drawn = 0;
@@ -269,16 +271,17 @@ void find_middles(const glm::ivec2& first_px, const glm::ivec2& size_px, std::sp
     while (end > 0 && middles.full_rows != tile.full_rows()) {
         const Triangle& triangle = *triangles[end - 1].triangle;
         std::size_t first = end - 1;
-        if (triangle.fill == Fill::Transparent) {
+        if (triangle.fill == Fill::Transparent && triangle.depth == scene::DepthUse::None) {
             if (triangle.is_cloud) { take_cloud(tile, first, middles); }
         } else if (triangle.group == 0 && triangle.is_sky) {
             take_sky(tile, first, middles);
         } else if (triangle.group == 0) {
             take_triangle(tile, first, middles);
         } else {
-            // Transparent triangles between those of a group end it, as they do in the picture.
+            // Transparent triangles without depth between those of a group end it, as they do in the picture.
             const auto belongs = [&](const Triangle& other) {
-                return other.group == triangle.group && other.fill != Fill::Transparent;
+                return other.group == triangle.group &&
+                       (other.fill != Fill::Transparent || other.depth != scene::DepthUse::None);
             };
             while (first > 0 && belongs(*triangles[first - 1].triangle)) { --first; }
             take_group(tile, first, end, middles);

@@ -346,22 +346,75 @@ HWY_INLINE Triple tinted(hn::Vec<Bits> colour, std::uint32_t tint) {
         mixed(own.x, level<0>(over), share), mixed(own.y, level<8>(over), share), mixed(own.z, level<16>(over), share)};
 }
 
+/// What glass adds to a surface: its own colour times `left`, plus `rgb_255`.
+struct Mirror {
+    Real left;
+    Triple rgb_255;
+};
+
+HWY_INLINE Mirror no_mirror() { return {set(1.0F), {set(0.0F), set(0.0F), set(0.0F)}}; }
+
+/// The part of a haze's colour that an axis has, 0..255, towards a direction.
+HWY_INLINE Real haze_towards(const Triple& direction, const Light& light, glm::length_t i) {
+    const auto level = hn::Add(
+        hn::Mul(direction.x, set(light.horizontal_to_sun.x)), hn::Mul(direction.y, set(light.horizontal_to_sun.y)));
+    const auto towards = hn::Max(level, hn::Zero(Reals()));
+    return hn::Mul(mixed(set(light.haze[i]), set(light.sunward_colour[i]), hn::Mul(towards, towards)), set(max_level));
+}
+
+/// scene::MirroredSky at corners of these colours, of which those without glass mirror nothing.
+HWY_INLINE Mirror mirror_of(
+    hn::Vec<Bits> colour, const Triple& at, Real distance_m, const Triple& outwards, const Light& light) {
+    using scene::MirroredSky;
+    const auto alpha = hn::ShiftRight<24>(colour);
+    const auto is_glass = hn::RebindMask(Reals(), hn::Ne(alpha, hn::Set(Bits(), 255U)));
+    if (!light.mirrored_sky || hn::AllFalse(Reals(), is_glass)) { return no_mirror(); }
+    const auto one = set(1.0F);
+    const auto zero = hn::Zero(Reals());
+    const auto inverse = hn::Div(one, hn::Max(distance_m, set(1e-6F)));
+    const auto along = hn::Mul(dot(outwards, at), inverse); // minus the cosine
+    const auto doubled = hn::Add(along, along);
+    const Triple mirrored{hn::Sub(hn::Mul(at.x, inverse), hn::Mul(doubled, outwards.x)),
+        hn::Sub(hn::Mul(at.y, inverse), hn::Mul(doubled, outwards.y)),
+        hn::Sub(hn::Mul(at.z, inverse), hn::Mul(doubled, outwards.z))};
+    const auto flat = hn::Sub(one, hn::Min(hn::Abs(along), one));
+    const auto squared = hn::Mul(flat, flat);
+    const auto share =
+        hn::Add(set(MirroredSky::f0), hn::Mul(set(1.0F - MirroredSky::f0), hn::Mul(hn::Mul(squared, squared), flat)));
+    auto glint = hn::Max(dot(mirrored, {set(light.to_sun.x), set(light.to_sun.y), set(light.to_sun.z)}), zero);
+    for (int power = 1; power < MirroredSky::power; power *= 2) { glint = hn::Mul(glint, glint); }
+    const auto up = hn::Min(hn::Max(mirrored.z, zero), one);
+    const auto overhead = hn::Mul(up, hn::Sub(set(2.0F), up));
+    const auto below = hn::Min(hn::Max(hn::Mul(mirrored.z, set(-4.0F)), zero), one);
+    const auto opacity = hn::Mul(hn::ConvertTo(Reals(), hn::BitCast(Whole(), alpha)), set(1.0F / 254.0F));
+    const auto weight = hn::IfThenElseZero(is_glass, hn::Div(share, hn::Max(opacity, set(0.05F))));
+    const auto seen = [&](glm::length_t i) HWY_ATTR {
+        const auto haze = haze_towards(mirrored, light, i);
+        const auto sky = mixed(haze, set(light.mirrored_sky->overhead[i] * max_level), overhead);
+        const auto all = mixed(sky, set(light.mirrored_sky->below[i] * max_level), below);
+        const auto sun = hn::Mul(glint, set(light.sunlight[i] * MirroredSky::glint * max_level));
+        return hn::Mul(weight, hn::Add(all, sun));
+    };
+    return {hn::IfThenElse(is_glass, hn::Sub(one, share), one), {seen(0), seen(1), seen(2)}};
+}
+
 /// Colours under the light on surfaces that face `outwards`, behind haze; 0..255. Those of textured ones are multiplied
 /// by texels before anything else happens to them: they keep what the haze leaves, and may be more than full.
-HWY_INLINE Triple lit(
-    const Triple& rgb_255, const Triple& outwards, const Light& light, const Haze& haze, hn::Mask<Reals> is_textured) {
+HWY_INLINE Triple lit(const Triple& rgb_255, const Triple& outwards, const Light& light, const Haze& haze,
+    const Mirror& mirror, hn::Mask<Reals> is_textured) {
     constexpr float most = 380.0F; // fits the painter's numbers
     const Triple to_sun{set(light.to_sun.x), set(light.to_sun.y), set(light.to_sun.z)};
     const auto towards_sun = hn::Max(dot(outwards, to_sun), hn::Zero(Reals()));
-    const auto seen = [&](Real own, glm::length_t i) HWY_ATTR {
+    const auto seen = [&](Real own, Real added, glm::length_t i) HWY_ATTR {
         const auto sum = hn::Add(set(light.ambient[i]), hn::Mul(set(light.sunlight[i]), towards_sun));
-        const auto under_light = hn::Mul(own, sum);
+        const auto under_light = hn::Add(hn::Mul(hn::Mul(own, sum), mirror.left), added);
         const auto in_haze =
             mixed(hn::Min(under_light, set(max_level)), haze.rgb_255[static_cast<std::size_t>(i)], haze.share);
         const auto left = hn::Mul(hn::Min(under_light, set(most)), hn::Sub(set(1.0F), haze.share));
         return hn::IfThenElse(is_textured, left, in_haze);
     };
-    return {seen(rgb_255.x, 0), seen(rgb_255.y, 1), seen(rgb_255.z, 2)};
+    const Triple& added = mirror.rgb_255;
+    return {seen(rgb_255.x, added.x, 0), seen(rgb_255.y, added.y, 1), seen(rgb_255.z, added.z, 2)};
 }
 
 /// Whether each vertex's polygon is smooth.
@@ -423,12 +476,18 @@ void ProjectAircraft(std::span<const scene::ModelVertex> from, const AircraftDra
         const auto has_texture = has_texture_of(block, state);
         const auto textured = [&](std::uint32_t tint)
                                   HWY_ATTR { return tint == 0 ? has_texture : hn::MaskFromVec(hn::Zero(Reals())); };
-        const Triple of_corner = lit(own, normal, light, haze, textured(state.tints.smooth));
+        // Tinted polygons show their tint alone.
+        const auto mirror_at = [&](std::size_t offset, std::uint32_t tint, const Triple& outwards) HWY_ATTR {
+            return tint != 0 ? no_mirror() : mirror_of(block.bits(offset), at, haze.distance_m, outwards, light);
+        };
+        const Mirror mirror = mirror_at(offsetof(ModelVertex, colour), state.tints.smooth, normal);
+        const Triple of_corner = lit(own, normal, light, haze, mirror, textured(state.tints.smooth));
         store.put_values(of_corner.x, of_corner.y, of_corner.z, haze.share);
         store.copy(count, first, to);
         const Triple face_normal = turns.direction(block.triple(offsetof(ModelVertex, face_normal)));
         const Triple face_own = tinted(block.bits(offsetof(ModelVertex, face_colour)), state.tints.flat);
-        const Triple of_face = lit(face_own, face_normal, light, haze, textured(state.tints.flat));
+        const Mirror face_mirror = mirror_at(offsetof(ModelVertex, face_colour), state.tints.flat, face_normal);
+        const Triple of_face = lit(face_own, face_normal, light, haze, face_mirror, textured(state.tints.flat));
         const auto turned_away = hn::Gt(dot(face_normal, at), hn::Mul(set(min_turn), haze.distance_m));
         const auto smooth = is_smooth(state.smooth, block.bits(offsetof(ModelVertex, polygon)));
         const auto flags = hn::Or(hn::IfThenElseZero(smooth, hn::Set(bits, FlatColour::smooth)),
@@ -438,9 +497,14 @@ void ProjectAircraft(std::span<const scene::ModelVertex> from, const AircraftDra
         std::memcpy(to.flat[first].rgb.data(), flat.data(), count * sizeof(FlatColour));
         if (!to.lit.empty()) {
             const Triple to_eye{hn::Neg(at.x), hn::Neg(at.y), hn::Neg(at.z)};
-            const Triple haze_rgb{hn::Mul(haze.rgb_255[0], haze.share), hn::Mul(haze.rgb_255[1], haze.share),
-                hn::Mul(haze.rgb_255[2], haze.share)};
-            put_lit({normal, to_eye, own, haze_rgb}, hn::Sub(set(1.0F), haze.share), to.lit.subspan(first, count));
+            // What is mirrored comes to the eye as haze does.
+            const auto transmittance = hn::Sub(set(1.0F), haze.share);
+            const auto air = [&](Real mirrored, std::size_t i) HWY_ATTR {
+                return hn::Add(
+                    hn::Mul(haze.rgb_255[i], haze.share), hn::Mul(hn::Min(mirrored, set(max_level)), transmittance));
+            };
+            const Triple haze_rgb{air(mirror.rgb_255.x, 0), air(mirror.rgb_255.y, 1), air(mirror.rgb_255.z, 2)};
+            put_lit({normal, to_eye, own, haze_rgb}, hn::Mul(transmittance, mirror.left), to.lit.subspan(first, count));
         }
     }
 }
@@ -462,7 +526,7 @@ Light light_of(const scene::FramePlan& plan) {
     const float visibility_m = plan.haze.visibility_m;
     return {plan.ambient, plan.sunlight, plan.to_sun, plan.haze.colour,
         visibility_m > 0.0F ? 1.0F / visibility_m : 0.0F, plan.haze.falloff_per_m, plan.haze.horizontal_to_sun,
-        plan.haze.sunward_colour};
+        plan.haze.sunward_colour, plan.mirrored_sky};
 }
 
 std::array<std::uint16_t, 3> haze_before(const glm::vec3& at_m, const Light& light) {

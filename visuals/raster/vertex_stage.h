@@ -8,6 +8,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 
 namespace octant::visuals::raster {
@@ -22,6 +23,7 @@ struct Light {
     float falloff_per_m = 0.0F;
     glm::vec2 horizontal_to_sun{0.0F};
     glm::vec3 sunward_colour{0.0F}; ///< display values 0..1
+    std::optional<scene::MirroredSky> mirrored_sky{};
 };
 
 Light light_of(const scene::FramePlan& plan);

@@ -34,9 +34,10 @@ struct ModelVertex {
     glm::vec3 position_m{0.0F};
     glm::vec3 normal{0.0F};
     glm::vec3 face_normal{0.0F};
-    /// The colour where the polygon is smooth, as ColourVertex::colour.
+    /// The colour where the polygon is smooth, as ColourVertex::colour. Alpha 255: no glass; less: glass, which mirrors
+    /// the sky (MirroredSky), of an opacity of so many 1/254.
     std::uint32_t colour = 0;
-    /// The colour where the polygon is flat, as ColourVertex::colour.
+    /// The colour where the polygon is flat, as `colour`.
     std::uint32_t face_colour = 0;
     /// 0 = body, k = pivot k - 1 of the model: turns with FramePlan::parts.
     std::uint32_t part = 0;
@@ -130,7 +131,8 @@ struct PaintStep {
         Aircraft,
         /// Meshes of FramePlan::refined are drawn without their back faces.
         Refined,
-        /// Indices of FramePlan::overlay are blended by their alpha; later steps draw over them.
+        /// Indices of FramePlan::overlay are blended by their alpha, with DepthUse::Nearest where they are nearer than
+        /// the depth buffer, without a change of it; later steps draw over them.
         Transparent,
         /// Indices of FramePlan::overlay are blended by their alpha, after all other steps.
         Overlay
@@ -217,6 +219,9 @@ struct OverlayVertex {
     glm::vec2 at_px{0.0F};
     /// As ColourVertex::colour; alpha says how much of the picture it covers.
     std::uint32_t colour = 0;
+    /// As in the depth buffer, for steps that use it: the near plane's distance over that of the vertex, both along the
+    /// optical axis.
+    float depth = 0.0F;
 };
 
 /// Triangles drawn over the picture in their order, either way round, blended by their alpha. Memory as TriangleDraw.
@@ -269,6 +274,22 @@ struct DetailTexture {
 struct Highlight {
     static constexpr float share = 0.4F;
     static constexpr int power = 24;
+};
+
+/// What the glass of aircraft mirrors. Where the line of sight meets it at an angle of cosine c from its normal, it
+/// shows (1 - F) own + F / opacity * mirrored: F = f0 + (1 - f0) (1 - c)^5 (Schlick, "An Inexpensive BRDF Model for
+/// Physically-based Rendering", 1994), `own` its colour under the light. With r the mirrored line of sight, a unit
+/// vector, `mirrored` is mix(h, overhead, t (2 - t)), t = r.z, over the horizon, and mix(h, below, min(-4 r.z, 1))
+/// under it, h being the haze's colour towards r; to this comes the sun's glint, glint * sunlight * max(r * to_sun,
+/// 0)^power. Computed at the corners of polygons, before the haze.
+struct MirroredSky {
+    static constexpr float f0 = 0.08F;    ///< of both surfaces of a pane
+    static constexpr float glint = 12.0F; ///< so much brighter the sun is than what it lights
+    static constexpr int power = 64;
+
+    // Display values 0..1.
+    glm::vec3 overhead{0.0F};
+    glm::vec3 below{0.0F};
 };
 
 /// What the ground shows of its mesh.
@@ -368,6 +389,8 @@ struct FramePlan {
     OverlayDraw overlay;
 
     Haze haze;
+    /// Nothing = glass mirrors nothing.
+    std::optional<MirroredSky> mirrored_sky;
     /// The direction to the sun: a unit vector, world axes.
     glm::vec3 to_sun{0.0F, 0.0F, 1.0F};
     /// The light: a colour's display values are multiplied by ambient + sunlight * cosine to the sun, at most 1.

@@ -86,7 +86,7 @@ struct SurfaceSettings {
     std::string order_cache = "user";
     /// Whether aircraft, trees and houses cast shadows on the ground.
     bool shadows = true;
-    /// Whether rotor discs, exhaust, afterburners and vapour are shown.
+    /// Whether exhaust, afterburners and vapour are shown.
     bool effects = false;
     /// The largest error of a mesh's level of detail on the screen.
     double aircraft_error_px = 1.0;

@@ -315,7 +315,7 @@ void Stations::ring_line(PaintedSolid& solid, double s) const {
 ModelBuilder::ModelBuilder(std::string name) { model_.name = std::move(name); }
 
 void ModelBuilder::add_material(const std::string& name, const glm::vec3& colour) {
-    model_.materials.push_back({name, colour});
+    model_.materials.push_back({.name = name, .colour = colour, .is_mirror = name == "glass"});
 }
 
 std::uint32_t ModelBuilder::vertex_at(const glm::dvec3& at_m) {

@@ -140,6 +140,7 @@ class ModelBuilder {
 public:
     explicit ModelBuilder(std::string name);
 
+    /// One of the name "glass" is a mirror.
     void add_material(const std::string& name, const glm::vec3& colour);
 
     /// Adds the faces to a part. Their materials must have been added before (asserted).

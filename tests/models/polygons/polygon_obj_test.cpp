@@ -74,6 +74,20 @@ TEST_CASE("without a material file the names are kept in the default colour") {
     CHECK(model.materials[0].colour == glm::vec3(0.7F));
 }
 
+TEST_CASE("materials with Fresnel's reflection are mirrors, those of other models of light are not") {
+    octant::write_file(scratch("mirrors.mtl"), "illum 5\nnewmtl pane\nillum 5\nnewmtl clear\nd 0.5\nillum 7\n"
+                                               "newmtl paint\nillum 2\nnewmtl plain\nKd 1 1 1\n");
+    const std::vector<Material> materials = read_mtl(scratch("mirrors.mtl")).materials;
+    REQUIRE(materials.size() == 4);
+    CHECK(materials[0].is_mirror);
+    CHECK(materials[1].is_mirror);
+    CHECK_FALSE(materials[2].is_mirror);
+    CHECK_FALSE(materials[3].is_mirror);
+    CHECK(is_glass(materials[0]));
+    CHECK_FALSE(is_transparent(materials[0]));
+    CHECK_FALSE(is_glass(materials[2]));
+}
+
 TEST_CASE("a line that ends in a backslash goes on in the next one") {
     const PolygonModel model = model_of("v 0 \\\n0 0\nv 1 0 0\nv 1 1 0\\\r\nv 0 1 0\nf 1\\\n\\\n2 3\nf 3 2 1\\");
     CHECK(model.vertices_m.size() == 3); // what follows three coordinates is ignored

@@ -29,6 +29,7 @@ void check_same(const PolygonModel& a, const PolygonModel& b) {
     for (std::size_t i = 0; i < a.materials.size(); ++i) {
         CHECK(a.materials[i].name == b.materials[i].name);
         CHECK(a.materials[i].colour == b.materials[i].colour);
+        CHECK(a.materials[i].is_mirror == b.materials[i].is_mirror);
     }
     REQUIRE(a.pivots.size() == b.pivots.size());
     for (std::size_t i = 0; i < a.pivots.size(); ++i) {
@@ -42,7 +43,7 @@ void check_same(const PolygonModel& a, const PolygonModel& b) {
 } // namespace
 
 TEST_CASE("a model survives the way to a file and back bit for bit, in any axes") {
-    octant::write_file(scratch("odd.mtl"), "newmtl a\nKd 0.1 0.33333 1e-3\nnewmtl b\nKd 0 1 0.7\n");
+    octant::write_file(scratch("odd.mtl"), "newmtl a\nKd 0.1 0.33333 1e-3\nnewmtl b\nKd 0 1 0.7\nillum 5\n");
     const PolygonModel model =
         model_of("mtllib odd.mtl\n# pivot fan 0.1 0.2 0.3 axis 1 2 3 rpm 3017.9\n"
                  "v 0.1 0.2 0.3\nv 1.1000000000000001 -2.2 0.3\nv 3.3333333333333335 1e-17 0.3\nv 9 9 9\n"

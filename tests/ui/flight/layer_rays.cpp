@@ -182,6 +182,7 @@ void keep_only_aircraft(scene::FramePlan& plan) {
     });
     plan.background = glm::vec3(0.0F);
     plan.haze = {};
+    plan.mirrored_sky.reset();
     plan.ambient = glm::vec3(1.0F);
     plan.sunlight = glm::vec3(0.0F);
     plan.ground_texture.reset();

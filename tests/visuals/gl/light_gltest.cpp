@@ -3,7 +3,10 @@
 #include <catch2/catch.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
 
 using namespace octant;
 using namespace octant::tests;
@@ -100,6 +103,50 @@ TEST_CASE("light beyond white is cut before the haze is mixed in") {
     plan.view_to_clip[0][0] = 100.0F; // large enough to be seen
     plan.view_to_clip[1][1] = 100.0F;
     CHECK(middle(studio.picture(plan)) == Pixel{94, 94, 94, 255}); // 255 / e
+}
+
+TEST_CASE("glass mirrors what lies where its mirror image is seen, more of it the flatter the view") {
+    Studio studio;
+    for (const float opacity : {1.0F, 0.5F}) {
+        scene::ModelBuffers model = square_model({0.2F, 0.3F, 0.4F});
+        for (scene::ModelVertex& vertex : model.vertices) {
+            const auto alpha = static_cast<std::uint32_t>(std::lround(254.0F * opacity));
+            vertex.colour = vertex.face_colour = (vertex.colour & 0x00ffffffU) | alpha << 24U;
+        }
+        studio.renderer().load_models({&model, 1});
+        for (const double turn_deg : {0.0, 30.0, 60.0, 75.0, -75.0}) {
+            scene::FramePlan plan = empty_plan();
+            plan.haze.colour = {0.6F, 0.7F, 0.8F};
+            plan.mirrored_sky = {{0.1F, 0.3F, 0.7F}, {0.3F, 0.2F, 0.1F}};
+            // Seen along y in world axes; the square's normal turns from the eye upwards.
+            const double turn = glm::radians(turn_deg);
+            plan.world_to_view = glm::mat4(glm::dmat4(glm::dmat3({1, 0, 0}, {0, 0, -1}, {0, 1, 0})));
+            glm::dmat4 place(
+                glm::dmat3({1, 0, 0}, {0, std::sin(turn), std::cos(turn)}, {0, -std::cos(turn), std::sin(turn)}));
+            place[3] = glm::dvec4(0.0, 1000.0, 0.0, 1.0); // so far that all of it is seen in one direction
+            add_square(plan, 0, glm::mat4(place));
+            for (int axis = 0; axis < 2; ++axis) { plan.view_to_clip[axis][axis] = 3000.0F; }
+            const double flat = std::pow(1.0 - std::cos(turn), 5.0);
+            const double share = 0.08 + 0.92 * flat;
+            const double up = std::sin(2.0 * turn); // of the mirrored line of sight
+            for (int smooth = 0; smooth < 2; ++smooth) {
+                plan.smooth = {smooth == 0 ? 0U : ~0U};
+                const Pixel seen = middle(studio.picture(plan));
+                for (int part = 0; part < 3; ++part) {
+                    const auto haze = static_cast<double>(plan.haze.colour[part]);
+                    const auto other = static_cast<double>(
+                        up > 0.0 ? plan.mirrored_sky->overhead[part] : plan.mirrored_sky->below[part]);
+                    const double weight = up > 0.0 ? up * (2.0 - up) : std::min(-4.0 * up, 1.0);
+                    const double mirrored = haze + (other - haze) * weight;
+                    const std::array own{0.2, 0.3, 0.4};
+                    const double expected = std::min((1.0 - share) * own[static_cast<std::size_t>(part)] +
+                                                         share / static_cast<double>(opacity) * mirrored,
+                        1.0);
+                    CHECK(seen[static_cast<std::size_t>(part)] == Approx(255.0 * expected).margin(1.5));
+                }
+            }
+        }
+    }
 }
 
 TEST_CASE("a flat polygon has one colour, the face colour of the corner its fan starts from") {

@@ -74,6 +74,34 @@ TEST_CASE("an overlay lies over everything at its pixels, by its alpha") {
     }
 }
 
+TEST_CASE("by depth a transparent area is blended where it is nearer than what was drawn, and hides nothing") {
+    using scene::PaintStep;
+    Studio studio;
+    scene::FramePlan plan = empty_plan();
+    Triangles ground;
+    ground.add({}, 8.0F, red).add({.left = 0.0F}, 2.0F, green).add({.top = 0.0F}, 6.0F, blue);
+    plan.ground = ground.draw();
+    Overlay sheet;
+    sheet.add({0.0F, 0.0F}, {64.0F, 64.0F}, white, 128);
+    for (scene::OverlayVertex& vertex : sheet.vertices) { vertex.depth = plan.view_to_clip[3][2] / 4.0F; }
+    plan.overlay = sheet.draw();
+    plan.depth_boxes = {{glm::ivec2(0), glm::ivec2(side_px)}};
+    const auto by_depth = [](PaintStep::Content content, std::uint32_t first, std::uint32_t count) {
+        return PaintStep{.content = content, .first = first, .count = count, .depth = scene::DepthUse::Nearest};
+    };
+    plan.steps = {{PaintStep::Content::ClearDepth, 0, 1}, by_depth(PaintStep::Content::Ground, 0, 12),
+        by_depth(PaintStep::Content::Transparent, 0, 6), by_depth(PaintStep::Content::Ground, 12, 6)};
+    scene::Picture picture;
+    studio.renderer().draw(plan);
+    studio.renderer().finish_and_read(picture);
+    const Pixel seen = pixel(picture, 10, 10); // red under the sheet
+    CHECK(seen[0] == 255);
+    CHECK(seen[1] == Approx(128).margin(1));
+    CHECK(pixel(picture, 50, 10) == green_px); // nearer than the sheet
+    CHECK(pixel(picture, 10, 50) == blue_px);  // nearer than the red, and not hidden by the sheet
+    CHECK(pixel(picture, 50, 50) == green_px);
+}
+
 TEST_CASE("later parts of an overlay cover earlier ones") {
     Studio studio;
     Overlay overlay;

@@ -4,6 +4,9 @@
 #include <glm/geometric.hpp>
 
 #include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "small_world.h"
 
@@ -44,21 +47,26 @@ PolygonModel helicopter(double rotor_down_m) {
     return model;
 }
 
-/// Triangles before and after the aircraft, for an eye at a place of its body axes.
+/// Triangles before and after the aircraft, for an eye at a place of its body axes, and those without a place.
 struct Painted {
     std::size_t before = 0;
     std::size_t after = 0;
+    std::size_t unordered = 0;
     std::optional<AxisAlignedBox> bounds;
 };
 
 Painted painted(const PolygonModel& model, const glm::dvec3& eye_m, double load_factor = 1.0,
-    std::span<const ArticulatedPart> articulated_parts = {}) {
+    std::span<const ArticulatedPart> articulated_parts = {}, const SurfaceSettings& surface = {.effects = true},
+    bool has_mesh = false) {
     Scene scene;
     scene.ground = cell_ground(2, 10.0, [](double, double) { return -500.0; });
-    scene.add_model(convex_aircraft(model));
+    AircraftModel aircraft = convex_aircraft(model);
+    const models::TriangleMesh mesh = models::polygons::mesh_from_polygons(model);
+    if (has_mesh) { add_levels(aircraft, std::vector{MeshSource{&mesh, 0.0}}, 0.1); }
+    scene.add_model(std::move(aircraft));
     scene.aircraft = {0};
     Settings settings = plain_settings();
-    settings.surface.effects = true;
+    settings.surface = surface;
     const Camera camera = camera_looking_at(eye_m, {0.0, 0.0, 0.0});
     FramePlan plan;
     plan.world_to_view = world_to_view(camera);
@@ -71,9 +79,12 @@ Painted painted(const PolygonModel& model, const glm::dvec3& eye_m, double load_
     Fleet fleet(scene, settings);
     fleet.place(view, request, transparents.effect_bounds());
     transparents.make(view, request, fleet, plan);
-    Painted painted{0, 0, transparents.effect_bounds().front()};
+    Painted painted{0, 0, 0, transparents.effect_bounds().front()};
     for (const Transparent& one : transparents.list()) {
-        (one.place == Transparent::Place::InFront ? painted.after : painted.before) += one.range.count / 3;
+        using enum Transparent::Place;
+        (one.place == InFront     ? painted.after
+            : one.place == Behind ? painted.before
+                                  : painted.unordered) += one.range.count / 3;
     }
     return painted;
 }
@@ -97,18 +108,42 @@ TEST_CASE("vapour lies beyond each wingtip and only under load") {
     CHECK(with.before > without.before); // of the left one
 }
 
-TEST_CASE("a rotor has a disc only where a plane parts it from the rest") {
+TEST_CASE("a disc is painted beside its aircraft where a plane parts it from the rest, else by depth on meshes") {
     const glm::dvec3 above_m(-20.0, 3.0, -15.0);
     const PolygonModel model = helicopter(-1.6);
-    CHECK(painted(model, above_m).bounds);
     CHECK(painted(model, above_m).after > 0);
+    CHECK(painted(model, above_m).before == 0);
     CHECK(painted(model, {-20.0, 3.0, 15.0}).before > 0);
-    CHECK_FALSE(painted(helicopter(0.0), above_m).bounds);
+    CHECK(painted(model, {-20.0, 3.0, 15.0}).after == 0);
+    const PolygonModel amid = helicopter(0.0);
+    CHECK(painted(amid, above_m).after + painted(amid, above_m).before + painted(amid, above_m).unordered == 0);
+    CHECK(painted(amid, above_m, 1.0, {}, {.effects = true}, true).unordered > 0);
+    CHECK(painted(model, above_m, 1.0, {}, {.effects = true}, true).unordered == 0);
+}
+
+TEST_CASE("fast rotors have discs without a setting; slow and held ones and the paper's order have none") {
+    const glm::dvec3 above_m(-20.0, 3.0, -15.0);
+    PolygonModel model = helicopter(-1.6);
+    const SurfaceSettings usual;
+    CHECK(painted(model, above_m, 1.0, {}, usual).after > 0);
+    CHECK_FALSE(painted(model, above_m, 1.0, {}, usual).bounds); // that of the blades is enough
     const std::vector<ArticulatedPart> of_another{{1, 0}};
     const std::vector<ArticulatedPart> held{{0, 0}};
     CHECK(painted(model, above_m, 1.0, of_another).after > 0);
     CHECK(painted(model, above_m, 1.0, held).after == 0);
-    CHECK_FALSE(painted(box_model({4.0, 0.8, 1.0}), above_m).bounds);
+    CHECK(painted(model, above_m, 1.0, {}, {.order_method = visuals::draworder::OrderMethod::Paper}).after == 0);
+    model.pivots.front().turns_per_s = 0.0;
+    CHECK(painted(model, above_m, 1.0, {}, usual).after == 0);
+    CHECK(painted(jet(), {-60.0, 3.0, -5.0}, 1.0, {}, usual).after == 0); // plumes need the setting
+}
+
+TEST_CASE("a disc has finer circles near the eye and is gone far away") {
+    const PolygonModel model = helicopter(-1.6);
+    const std::size_t near = painted(model, {-10.0, 3.0, -10.0}).after;
+    const std::size_t far = painted(model, {-100.0, 3.0, -100.0}).after;
+    CHECK(near > far);
+    CHECK(far > 0);
+    CHECK(painted(model, {-800.0, 3.0, -800.0}).after == 0);
 }
 
 TEST_CASE("afterburners follow thrust, vapour follows load") {
@@ -141,4 +176,87 @@ TEST_CASE("afterburners follow thrust, vapour follows load") {
     state.velocity_mps = {206.7, 0.0, -75.2};
     state.speed_rate_mps2 = 10.0;
     CHECK(strength_of(f15, state).burner > 0.9);
+}
+
+namespace {
+
+/// Helicopters over level ground.
+struct Helicopters {
+    Scene scene;
+    Settings settings = plain_settings();
+    std::vector<sim::AircraftState> states;
+
+    explicit Helicopters(const std::vector<glm::dvec3>& places_m, double rotor_down_m = -1.6) {
+        scene.ground = cell_ground(20, 10.0, [](double, double) { return 0.0; });
+        scene.add_model(convex_aircraft(helicopter(rotor_down_m)));
+        for (const glm::dvec3& place_m : places_m) {
+            scene.aircraft.push_back(0);
+            states.push_back(state_at(place_m, {0.0, 1.0, 0.0, 0.0})); // upright, heading east
+        }
+    }
+};
+
+/// The contents of a plan's steps, one letter each: A aircraft, T transparent,
+/// t transparent by depth, d depth alone, c depth cleared, a aircraft by depth, G any other.
+std::string letters_of(const FramePlan& plan) {
+    std::string letters;
+    for (const PaintStep& step : plan.steps) {
+        const bool by_depth = step.depth == DepthUse::Nearest;
+        switch (step.content) {
+        case PaintStep::Content::ClearDepth:
+            letters += 'c';
+            break;
+        case PaintStep::Content::Aircraft:
+            letters += by_depth ? 'a' : 'A';
+            break;
+        case PaintStep::Content::Transparent:
+            letters += by_depth ? 't' : 'T';
+            break;
+        default:
+            letters += step.depth == DepthUse::DepthOnly ? 'd' : 'G';
+        }
+    }
+    return letters;
+}
+
+std::string letters_of(Helicopters& world, const Camera& camera) {
+    Planner planner(world.scene, world.settings);
+    return letters_of(planner.plan({camera, world.states}).plan);
+}
+
+} // namespace
+
+TEST_CASE("a disc follows its aircraft for eyes above it and comes before it for eyes below, both without depth") {
+    Helicopters world({{0.0, 0.0, 60.0}});
+    CHECK(letters_of(world, camera_looking_at({-30.0, 5.0, 90.0}, {0.0, 0.0, 60.0})) == "GAT");
+    CHECK(letters_of(world, camera_looking_at({-30.0, 5.0, 40.0}, {0.0, 0.0, 60.0})) == "GTA");
+}
+
+TEST_CASE("a disc is hidden by the ground that reaches into its aircraft's box") {
+    Helicopters world({{0.0, 0.0, 0.5}}); // the skids are in the ground
+    const std::string letters = letters_of(world, camera_looking_at({-30.0, 5.0, 20.0}, {0.0, 0.0, 0.5}));
+    INFO(letters);
+    CHECK(letters.find("cdt") != std::string::npos);
+    CHECK(letters.find('a') == std::string::npos); // the aircraft itself is painted in order
+}
+
+TEST_CASE("aircraft in one another's boxes have depth with their discs, those apart have none") {
+    const Camera camera = camera_looking_at({-30.0, 5.0, 90.0}, {0.0, 0.0, 60.0});
+    Helicopters close({{0.0, 0.0, 60.0}, {3.0, 0.0, 61.0}});
+    CHECK(letters_of(close, camera) == "Gcatt");
+    Helicopters apart({{0.0, 0.0, 60.0}, {30.0, 0.0, 61.0}});
+    CHECK(letters_of(apart, camera) == "GATAT");
+}
+
+TEST_CASE("with a depth buffer discs come last, from far to near") {
+    Helicopters world({{0.0, 0.0, 60.0}, {30.0, 0.0, 61.0}});
+    world.settings.surface.hidden_surface = HiddenSurface::DepthBuffer;
+    const Camera camera = camera_looking_at({-30.0, 5.0, 90.0}, {0.0, 0.0, 60.0});
+    Planner planner(world.scene, world.settings);
+    const FramePlan& plan = planner.plan({camera, world.states}).plan;
+    REQUIRE(letters_of(plan).ends_with("tt"));
+    const auto depth_of = [&](const PaintStep& step) {
+        return plan.overlay.vertices[plan.overlay.indices[step.first]].depth;
+    };
+    CHECK(depth_of(plan.steps.rbegin()[1]) < depth_of(plan.steps.back()));
 }

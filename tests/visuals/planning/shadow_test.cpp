@@ -64,6 +64,12 @@ double off_plane_m(const Corners& t, const glm::dvec3& p) {
 
 bool is_shadow(const FramePlan& plan, std::uint32_t index) { return index >= plan.ground.vertices.size(); }
 
+std::uint32_t colour_of(const FramePlan& plan, std::uint32_t index) {
+    return plan.shadow_vertices[index - plan.ground.vertices.size()].colour;
+}
+
+constexpr std::uint32_t darkest = 0xff464646U; ///< where no sun is left
+
 /// Whether a sun ray from a point meets the box of an aircraft: -1 surely not, 1 surely, 0 close.
 int in_the_way(const sim::AircraftState& state, const glm::dvec3& point_m, const glm::dvec3& to_sun) {
     const auto intersects = [&](double grown_m) {
@@ -131,9 +137,10 @@ TEST_CASE("ground is in shadow where the sun's ray meets an aircraft and nowhere
             const double u = dice.next();
             const double v = dice.next() * (1.0 - u);
             const glm::dvec3 p = t.at[0] + (t.at[1] - t.at[0]) * u + (t.at[2] - t.at[0]) * v;
-            double covered_m = -1e9; // how deep inside a piece
+            double covered_m = -1e9; // how deep inside a piece of the whole shadow
             for (std::size_t n = i + 3; n < plan.ground.indices.size() && is_shadow(plan, plan.ground.indices[n]);
                  n += 3) {
+                if (colour_of(plan, plan.ground.indices[n]) != darkest) { continue; } // of a penumbra
                 covered_m = std::max(covered_m, inside_m(corners_of(plan, plan.ground.indices, n), p));
             }
             int expected = -1;
@@ -149,9 +156,10 @@ TEST_CASE("ground is in shadow where the sun's ray meets an aircraft and nowhere
     CHECK(dark > 20);
 }
 
-TEST_CASE("all of a shadow has one darkness and says for textures what light is left") {
+TEST_CASE("the whole of a shadow has one darkness and says for textures what light is left") {
     for (const bool textured : {false, true}) {
         Shadowed world;
+        world.camera = camera_looking_at({-600, -800, 900}, {0, 0, 0}); // no penumbra is seen from here
         if (textured) {
             world.scene.ground_texture = std::make_shared<const GroundTexture>(
                 GroundTexture{.albedo = {1, 1, {9, 9, 9}}, .normal = {1, 1, {128, 128}}});
@@ -160,9 +168,76 @@ TEST_CASE("all of a shadow has one darkness and says for textures what light is 
         const FramePlan& plan = planner.plan({world.camera, world.states}).plan;
         CHECK(!plan.shadow_vertices.empty());
         for (const models::ColourVertex& vertex : plan.shadow_vertices) {
-            CHECK(vertex.colour == (textured ? 0x8c464646U : 0xff464646U));
+            CHECK(vertex.colour == (textured ? 0x8c464646U : darkest));
         }
     }
+}
+
+namespace {
+
+/// The colour of the last shadow piece that is painted on a place of level ground, 0 where there is none.
+std::uint32_t painted_at(const FramePlan& plan, const glm::dvec3& place_m) {
+    std::uint32_t seen = 0;
+    for (std::size_t i = 0; i < plan.ground.indices.size(); i += 3) {
+        if (is_shadow(plan, plan.ground.indices[i]) &&
+            inside_m(corners_of(plan, plan.ground.indices, i), place_m) > 0.0) {
+            seen = colour_of(plan, plan.ground.indices[i]);
+        }
+    }
+    return seen;
+}
+
+} // namespace
+
+TEST_CASE("half of a penumbra lies around a shadow, as wide as the sun makes it, and darkens inwards") {
+    Scene scene;
+    scene.ground = cell_ground(40, 20.0, [](double, double) { return 0.0; });
+    scene.add_model(convex_aircraft(box_model({30.0, 30.0, 1.0})));
+    scene.aircraft = {0};
+    Settings settings = plain_settings();
+    settings.surface.shadows = true;
+    settings.air.sun_elevation_deg = 90.0;
+    Planner planner(scene, settings);
+    const Camera camera = camera_looking_at({60.0, 0.0, 60.0}, {30.0, 0.0, 0.0});
+    for (const double height_m : {40.0, 200.0, 600.0}) {
+        const std::vector states{state_at({0.0, 0.0, height_m})};
+        const FramePlan& plan = planner.plan({camera, states}).plan;
+        const double width_m = 0.5 * 0.0093 * height_m;
+        /// At a distance from the shadow's own edge, in widths.
+        const auto red_at = [&](double widths) {
+            const std::uint32_t colour = painted_at(plan, glm::dvec3(30.0 + widths * width_m, 0.7, 0.0) - camera.eye_m);
+            return colour == 0 ? 255U : colour & 255U;
+        };
+        CHECK(red_at(-0.1) == (darkest & 255U));
+        CHECK(red_at(0.02) > (darkest & 255U));
+        CHECK(red_at(0.45) < 255U);
+        CHECK(red_at(1.01) == 255U);
+        for (int tenths = 0; tenths < 9; ++tenths) {
+            CHECK(red_at(0.1 * tenths + 0.05) <= red_at(0.1 * tenths + 0.15));
+        }
+    }
+}
+
+TEST_CASE("a shadow whose penumbra is wider than the aircraft's parts fades, and no aircraft's lightens another's") {
+    Scene scene;
+    scene.ground = cell_ground(40, 20.0, [](double, double) { return 0.0; });
+    scene.add_model(convex_aircraft(box_model({5.0, 5.0, 1.0})));
+    scene.aircraft = {0, 0};
+    Settings settings = plain_settings();
+    settings.surface.shadows = true;
+    settings.air.sun_elevation_deg = 90.0;
+    Planner planner(scene, settings);
+    const Camera camera = camera_looking_at({60.0, 0.0, 60.0}, {0.0, 0.0, 0.0});
+    const auto at = [&](std::vector<double> heights_m) {
+        std::vector<sim::AircraftState> states;
+        for (const double height_m : heights_m) { states.push_back(state_at({0.0, 0.0, height_m})); }
+        const FramePlan plan = planner.plan({camera, states}).plan;
+        return painted_at(plan, glm::dvec3(0.3, 0.7, 0.0) - camera.eye_m) & 255U;
+    };
+    const std::uint32_t low = at({20.0, 22.0});
+    CHECK(low == 0x46U);
+    CHECK(at({1500.0, 1510.0}) > low);
+    for (const auto& both : {std::vector{20.0, 1500.0}, {1500.0, 20.0}}) { CHECK(at(both) == low); }
 }
 
 TEST_CASE("with a depth buffer shadows come apart from the ground") {

@@ -3,7 +3,9 @@
 
 #include <catch2/catch.hpp>
 
+#include <array>
 #include <cmath>
+#include <cstdlib>
 
 namespace octant::visuals::raster {
 
@@ -149,6 +151,38 @@ TEST_CASE("polygons of an aircraft are flat or smooth as their bits say, whichev
     const scene::Picture picture = drawn(frame, steps_size_px, 16, 1, nullptr, std::span(&model, 1));
     CHECK(pixel(picture, 36, 60) == (frame.smooth[0] == 0 ? red_px : green_px));
     CHECK(pixel(picture, 10, 60) == glm::ivec3(0));
+}
+
+TEST_CASE("glass mirrors the sky and the sun's glint, other surfaces do not") {
+    // A square far ahead in view axes, which are those of the world: it mirrors what is behind the eye, overhead.
+    const std::array own{0.25, 0.5, 0.75};
+    const auto seen = [&](std::uint32_t alpha, std::uint32_t smooth, bool is_phong, const glm::vec3& to_sun) {
+        scene::ModelBuffers model;
+        add_square(model, 10.0F, -400.0F, 0x00bf8040U | alpha << 24U);
+        FlatPlan plan(steps_size_px);
+        scene::FramePlan& frame = plan.plan();
+        light_evenly(frame, smooth);
+        frame.sunlight = glm::vec3(0.0F, 0.0F, 0.01F);
+        frame.to_sun = to_sun;
+        frame.lights_pixels = is_phong;
+        frame.mirrored_sky = {glm::vec3(0.5F, 0.25F, 0.75F), glm::vec3(0.0F)};
+        frame.aircraft = {{.model = 0, .first_index = 0, .index_count = 6}};
+        frame.steps.push_back({PaintStep::Content::Aircraft, 0, 1});
+        return pixel(drawn(frame, steps_size_px, 1, 1, nullptr, std::span(&model, 1)), 32, 32);
+    };
+    constexpr glm::vec3 aside(1.0F, 0.0F, 0.0F);
+    const glm::ivec3 expected(
+        glm::round(255.0 * (0.92 * glm::dvec3(own[0], own[1], own[2]) + 0.08 * glm::dvec3(0.5, 0.25, 0.75))));
+    for (const std::uint32_t smooth : {0U, ~0U}) {
+        CHECK(seen(255, smooth, false, aside) == glm::ivec3(64, 128, 191));
+        const glm::ivec3 mirrored = seen(254, smooth, false, aside);
+        const glm::ivec3 with_glint = seen(254, smooth, false, {0.0F, 0.0F, 1.0F});
+        for (int part = 0; part < 3; ++part) { CHECK(std::abs(mirrored[part] - expected[part]) <= 2); }
+        CHECK(with_glint.x == mirrored.x);
+        CHECK(with_glint.z - mirrored.z >= 3); // 0.08 * 12 * 0.01 of the sun's blue light, and what lies in it
+    }
+    const glm::ivec3 phong = seen(254, ~0U, true, aside);
+    for (int part = 0; part < 3; ++part) { CHECK(std::abs(phong[part] - expected[part]) <= 2); }
 }
 
 TEST_CASE("a sliver of a polygon that faces away is not drawn where rounding turns it round") {

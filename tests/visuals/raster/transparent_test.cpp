@@ -28,10 +28,10 @@ struct Sheet {
     std::vector<scene::OverlayVertex> vertices;
     std::vector<std::uint32_t> indices;
 
-    void add(const glm::vec2& by_px, std::uint32_t colour) {
+    void add(const glm::vec2& by_px, std::uint32_t colour, float depth = 0.0F) {
         const auto first = static_cast<std::uint32_t>(vertices.size());
         for (const glm::vec2 at : {glm::vec2(3.3F, 4.7F), {50.2F, 9.1F}, {60.9F, 55.5F}, {8.4F, 48.8F}}) {
-            vertices.push_back({at + by_px, colour});
+            vertices.push_back({at + by_px, colour, depth});
         }
         for (const std::uint32_t corner : {0U, 1U, 2U, 0U, 2U, 3U}) { indices.push_back(first + corner); }
     }
@@ -58,6 +58,52 @@ TEST_CASE("a transparent area is blended over what is painted before it and hidd
         CHECK(pixel(picture, 20, 30) == glm::ivec3(255, 128, 128));
         CHECK(pixel(picture, 1, 1) == glm::ivec3(255, 0, 0));
         CHECK(pixel(picture, 55, 12) == glm::ivec3(0, 255, 0));
+    }
+}
+
+TEST_CASE("by depth a transparent area is blended where it is nearer than what was drawn, and hides nothing") {
+    for (const int samples : {1, 4, 16}) {
+        FlatPlan plan(area_size_px); // its near plane is 1 m away
+        Sheet sheet;
+        sheet.add({}, half_white, 1.0F / 7.0F);
+        plan.paint({over_all(whole_red)}, scene::DepthUse::Nearest); // 10 m away
+        FlatTriangle near = over_all(0xff00ff00U);
+        near.at_px = {glm::vec2(32, -50), glm::vec2(200, -50), glm::vec2(32, 200)};
+        near.depth_m.fill(5.0F);
+        plan.paint({near}, scene::DepthUse::Nearest);
+        plan.plan().overlay = {sheet.vertices, sheet.indices};
+        plan.plan().steps.push_back(
+            {.content = PaintStep::Content::Transparent, .first = 0, .count = 6, .depth = scene::DepthUse::Nearest});
+        scene::Picture picture = drawn(plan.plan(), area_size_px, samples);
+        CHECK(pixel(picture, 20, 30) == glm::ivec3(255, 128, 128));
+        CHECK(pixel(picture, 40, 30) == glm::ivec3(0, 255, 0));
+        CHECK(pixel(picture, 1, 1) == glm::ivec3(255, 0, 0));
+        // In the renderer's last group as in one before it.
+        FlatTriangle corner = over_all(0xffff0000U);
+        corner.at_px = {glm::vec2(0, 40), glm::vec2(0, 64), glm::vec2(24, 64)};
+        plan.paint({corner});
+        picture = drawn(plan.plan(), area_size_px, samples);
+        CHECK(pixel(picture, 20, 30) == glm::ivec3(255, 128, 128));
+        CHECK(pixel(picture, 5, 55) == glm::ivec3(0, 0, 255));
+    }
+}
+
+TEST_CASE("by depth a slanted transparent area is cut where it passes through what was drawn") {
+    FlatPlan plan(area_size_px);
+    plan.paint({over_all(whole_red)}, scene::DepthUse::Nearest); // 10 m away
+    // One over the depth is linear over the picture: 1/5 m at the left edge, 1/20 m at the right, 1/10 m at 2/3.
+    std::vector<scene::OverlayVertex> vertices;
+    for (const glm::vec2 at : {glm::vec2(0, 0), {60, 0}, {60, 64}, {0, 64}}) {
+        vertices.push_back({at, half_white, at.x == 0.0F ? 0.2F : 0.05F});
+    }
+    const std::vector<std::uint32_t> indices{0, 1, 2, 0, 2, 3};
+    plan.plan().overlay = {vertices, indices};
+    plan.plan().steps.push_back(
+        {.content = PaintStep::Content::Transparent, .first = 0, .count = 6, .depth = scene::DepthUse::Nearest});
+    const scene::Picture picture = drawn(plan.plan(), area_size_px, 16);
+    for (int row = 1; row < 64; ++row) {
+        CHECK(pixel(picture, 38, row) == glm::ivec3(255, 128, 128));
+        CHECK(pixel(picture, 41, row) == glm::ivec3(255, 0, 0));
     }
 }
 

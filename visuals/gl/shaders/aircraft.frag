@@ -8,6 +8,7 @@ flat in vec4 flat_colour; // a = 1: the smooth one counts; a < 0: the polygon's 
 in vec3 surface_colour;
 in vec3 surface_normal; // world axes
 in vec3 to_eye; // world axes, metres
+in vec4 smooth_haze_part; // with what is mirrored
 #else
 in vec3 smooth_colour;
 #endif
@@ -34,7 +35,7 @@ vec3 smooth_light(vec3 picture) {
     float mirrored = cosine > 0.0 ? dot(reflect(-to_sun.xyz, normal), normalize(to_eye)) : 0.0;
     vec3 light = surface_colour * picture * (ambient.rgb + sunlight.rgb * cosine) +
                  sunlight.rgb * 0.4 * pow(max(mirrored, 0.0), 24.0);
-    return min(light, vec3(1.0)) * haze_part.a + haze_part.rgb;
+    return min(light, vec3(1.0)) * smooth_haze_part.a + smooth_haze_part.rgb;
 }
 #elif defined(TEXTURED)
 vec3 smooth_light(vec3 picture) {

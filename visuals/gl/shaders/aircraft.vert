@@ -37,6 +37,7 @@ out vec4 haze_part; // colour times share, and what is left of the surface's own
 out vec3 surface_colour;
 out vec3 surface_normal; // world axes
 out vec3 to_eye; // world axes, metres
+out vec4 smooth_haze_part; // with what is mirrored
 #else
 out vec3 smooth_colour;
 #endif
@@ -45,9 +46,27 @@ out vec2 on_texture;
 flat out uint shown_texture; // 0: none
 #endif
 
-vec3 lit(vec3 colour, vec3 outwards) {
+// What glass mirrors, as scene::MirroredSky says: what is added to the colour, and what is left of its own.
+// `alpha`: of the colour; 1: no glass.
+vec4 mirror(float alpha, vec3 place_m, vec3 outwards) {
+    if (alpha == 1.0 || mirrored_overhead.a == 0.0) {
+        return vec4(0.0, 0.0, 0.0, 1.0);
+    }
+    vec3 sight = place_m / max(length(place_m), 1e-6);
+    float along = dot(outwards, sight);
+    vec3 mirrored = sight - 2.0 * along * outwards;
+    float share = 0.08 + 0.92 * pow(1.0 - min(abs(along), 1.0), 5.0);
+    float towards = max(dot(mirrored, haze_to_sun.xyz), 0.0);
+    float up = clamp(mirrored.z, 0.0, 1.0);
+    vec3 sky = mix(mix(haze.rgb, haze_sunward.rgb, towards * towards), mirrored_overhead.rgb, up * (2.0 - up));
+    sky = mix(sky, mirrored_below.rgb, clamp(-4.0 * mirrored.z, 0.0, 1.0));
+    sky += 12.0 * sunlight.rgb * pow(max(dot(mirrored, to_sun.xyz), 0.0), 64.0);
+    return vec4(sky * (share / max(alpha * 255.0 / 254.0, 0.05)), 1.0 - share);
+}
+
+vec3 lit(vec3 colour, vec3 outwards, vec4 mirrored) {
     vec3 light = ambient.rgb + sunlight.rgb * max(dot(outwards, to_sun.xyz), 0.0);
-    return min(colour * light, vec3(1.0));
+    return min(colour * light * mirrored.a + mirrored.rgb, vec3(1.0));
 }
 
 void main() {
@@ -60,7 +79,10 @@ void main() {
     // Cosine between the line of sight and the normal above which a back is seen: a hundred times
     // what rounding leaves open.
     bool turned_away = dot(outwards, place.xyz) > 1e-5 * length(place.xyz);
-    vec3 flat_light = lit(mix(face_colour.rgb, flat_tint.rgb, flat_tint.a), outwards);
+    // Tinted polygons show their tint alone.
+    vec4 flat_mirror = mirror(flat_tint.a > 0.0 ? 1.0 : face_colour.a, place.xyz, outwards);
+    vec3 flat_light = lit(mix(face_colour.rgb, flat_tint.rgb, flat_tint.a), outwards, flat_mirror);
+    vec4 smooth_mirror = mirror(smooth_tint.a > 0.0 ? 1.0 : own_colour.a, place.xyz, turn * normal);
 #if defined(PHONG) || defined(TEXTURED)
     haze_part = vec4(air.rgb * air.a, 1.0 - air.a);
 #endif
@@ -76,10 +98,13 @@ void main() {
     surface_colour = own;
     surface_normal = turn * normal;
     to_eye = -place.xyz;
+    // What is mirrored comes to the eye as haze does.
+    smooth_haze_part = vec4(
+        haze_part.rgb + min(smooth_mirror.rgb, vec3(1.0)) * haze_part.a, haze_part.a * smooth_mirror.a);
 #elif defined(TEXTURED)
-    smooth_colour = lit(own, turn * normal);
+    smooth_colour = lit(own, turn * normal, smooth_mirror);
 #else
-    smooth_colour = mix(lit(own, turn * normal), air.rgb, air.a);
+    smooth_colour = mix(lit(own, turn * normal, smooth_mirror), air.rgb, air.a);
 #endif
     gl_Position = world_to_clip * place;
 }

@@ -9,6 +9,8 @@ layout(std140, binding = 0) uniform Picture {
     vec4 to_sun; // unit, world axes
     vec4 ambient;
     vec4 sunlight;
+    vec4 mirrored_overhead; // what glass mirrors, scene::MirroredSky; a = 0: nothing
+    vec4 mirrored_below;
     mat4 ray_from_pixel; // world axes, one unit deep
     vec4 albedo_place; // texture coordinates of the eye, then their change a metre
     vec4 normal_place;
