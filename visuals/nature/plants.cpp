@@ -21,11 +21,12 @@ constexpr float conifer_outline_px = 34.0F;
 constexpr float outline_px = 24.0F;
 constexpr float triangle_px = 20.0F; ///< conifers that look lower have three corners from the side
 constexpr float round_outline_px = 70.0F;
-constexpr float bare_trunk_px = 36.0F; ///< crowns of this size reach down to the ground ...
-constexpr float full_trunk_px = 90.0F; ///< ... and have the whole trunk below them from this one on
+constexpr float bare_trunk_px = 36.0F;  ///< crowns of this size reach down to the ground ...
+constexpr float full_trunk_px = 90.0F;  ///< ... and have the whole trunk below them from this one on
+constexpr float flat_trunk_px = 120.0F; ///< smaller ones have a trunk of one face, towards the eye
 /// Where a level of the crown begins, and where its vertices have wholly come.
 constexpr std::array<glm::vec2, Icosphere::levels> level_px{
-    glm::vec2(0.0F), glm::vec2(70.0F, 110.0F), glm::vec2(150.0F, 260.0F)};
+    glm::vec2(0.0F), glm::vec2(80.0F, 130.0F), glm::vec2(160.0F, 270.0F)};
 constexpr float full_contrast_px = 90.0F;
 constexpr float min_contrast = 0.35F;
 /// Smaller plants take on their ground's colour, of which they have the share `max_ground_share` in the end.
@@ -382,22 +383,29 @@ void PlantMesher::add_tier(
     }
 }
 
-/// A prism from the ground to the plane below the crown, which parts them for every eye.
+/// From the ground to the plane below the crown, which parts them for every eye.
 void PlantMesher::add_trunk(const Plant& plant, const Placement& placement, float lowest, StandingMesh& to) const {
     const float radius_m = trunk_radii[static_cast<std::size_t>(plant.kind)] * plant.radius_m;
     const float top_m = placement.base_m + placement.height_m * lowest;
-    std::array<glm::vec3, 4> low_m;
-    std::array<glm::vec3, 4> high_m;
-    for (std::size_t i = 0; i < 4; ++i) {
-        const glm::vec2 off_m = radius_m * compass_directions[2 * i];
-        const float ground_m = plant.anchor.height_at_offset_m(off_m);
-        low_m[i] = plant.anchor.at_m + glm::vec3(off_m, std::min(ground_m, top_m + placement.lean * ground_m));
-        high_m[i] = plant.anchor.at_m + glm::vec3(off_m, top_m + placement.lean * ground_m);
+    const auto face = [&](const glm::vec2& from_m, const glm::vec2& to_m, const glm::vec2& out) {
+        const auto place_m = [&](const glm::vec2& off_m, bool is_high) {
+            const float ground_m = plant.anchor.height_at_offset_m(off_m);
+            const float up_m = top_m + placement.lean * ground_m;
+            return plant.anchor.at_m + glm::vec3(off_m, is_high ? up_m : std::min(ground_m, up_m));
+        };
+        to.face(std::array{place_m(from_m, false), place_m(to_m, false), place_m(to_m, true), place_m(from_m, true)},
+            lit(plant, bark, light_on(glm::vec3(out, 0.0F), 0.8F)));
+    };
+    const glm::vec2 level_m = -glm::vec2(plant.anchor.at_m);
+    if (plant.height_px < flat_trunk_px && level_m != glm::vec2(0.0F)) {
+        const glm::vec2 to_eye = glm::normalize(level_m);
+        const glm::vec2 right_m = 0.85F * radius_m * glm::vec2(-to_eye.y, to_eye.x);
+        face(-right_m, right_m, to_eye);
+        return;
     }
     for (std::size_t i = 0; i < 4; ++i) {
-        const std::size_t next = (i + 1) % 4;
-        const glm::vec3 out(compass_directions[2 * i + 1], 0.0F);
-        to.face(std::array{low_m[i], low_m[next], high_m[next], high_m[i]}, lit(plant, bark, light_on(out, 0.8F)));
+        face(radius_m * compass_directions[2 * i], radius_m * compass_directions[(2 * i + 2) % turns],
+            compass_directions[2 * i + 1]);
     }
 }
 

@@ -33,7 +33,9 @@ constexpr double min_cell_m = 15.0; ///< denser ground bears something in some c
 constexpr float min_radius_m = 1.2F;
 constexpr float max_height_m = 17.0F;        ///< of all things
 constexpr float max_fineness = 1.5F;         ///< of plants where few trees are near
-constexpr float max_crowding = 3.0F;         ///< of trees in view, over those all around
+constexpr float min_fineness = 0.7F;         ///< and where they stand everywhere
+constexpr float max_crowding = 2.4F;         ///< of trees in view, over those all around
+constexpr float spare_share = 0.8F;          ///< of the triangles, after which plants have half of their fineness
 constexpr double crowd_reach_m = 250.0;      ///< from the eye
 constexpr float house_circle_m = 4.0F;       ///< no house where less fits
 constexpr float first_growth_ratio = 0.34F;  ///< of the reach: all things have grown by then
@@ -99,7 +101,8 @@ public:
         view_reach_m_ = reach_m_ * static_cast<double>(view.range_ratio);
         added_ = 0;
         fineness_ = reach_m_ > 0.0 && view.max_scenery_triangles > 0
-                        ? 1.0F / std::clamp(std::sqrt(max_crowding * share_of_trees()), 1.0F / max_fineness, 1.0F)
+                        ? 1.0F / std::clamp(std::sqrt(max_crowding * share_of_trees()), 1.0F / max_fineness,
+                                     1.0F / min_fineness)
                         : 1.0F;
         shadow_reach_m_ = 0.0F;
         if (ground_.has_shadows && shadows_.are_cast()) {
@@ -150,6 +153,9 @@ public:
         StandingMesh mesh{to.vertices, to.indices};
         for (const PlacedItem& one : placed_items_) {
             if (added_ >= view_.max_scenery_triangles) { break; }
+            const bool is_scarce =
+                static_cast<float>(added_) > spare_share * static_cast<float>(view_.max_scenery_triangles);
+            const float fineness = is_scarce ? 0.5F * fineness_ : fineness_;
             const std::size_t before = to.indices.size();
             const auto first_vertex = static_cast<std::uint32_t>(to.vertices.size());
             const bool is_house = one.item.kind == SceneryKind::House;
@@ -158,8 +164,8 @@ public:
                     {one.anchor, house_half_m(), one.height_share, one.height_px, sun_of(one), one.item.random_bits},
                     ground_.day, mesh);
             } else {
-                plants_.add({species_of(one.item).kind, one.anchor, one.radius_m, one.height_m, one.height_px,
-                                fineness_, sun_of(one), one.item.random_bits},
+                plants_.add({species_of(one.item).kind, one.anchor, one.radius_m, one.height_m, one.height_px, fineness,
+                                sun_of(one), one.item.random_bits},
                     mesh);
             }
             to.runs.push_back({first_vertex, static_cast<std::uint32_t>(to.vertices.size()),

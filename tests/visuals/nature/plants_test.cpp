@@ -191,7 +191,7 @@ TEST_CASE("plants do not change suddenly as they grow in the picture") {
         Plant plant = views.plant();
         plant.anchor.at_m = glm::vec3(30.0F, 10.0F, -8.0F);
         const glm::dvec3 middle_m = glm::dvec3(plant.anchor.at_m + glm::vec3(0.0F, 0.0F, 0.5F * plant.height_m));
-        for (const float px : {40.0F, 70.0F, 110.0F, 150.0F, 260.0F}) {
+        for (const float px : {40.0F, 80.0F, 130.0F, 160.0F, 270.0F}) {
             std::vector<double> distances_m;
             for (const float height_px : {px * 0.9999F, px * 1.0001F}) {
                 Triangles triangles;
