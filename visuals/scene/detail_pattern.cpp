@@ -13,6 +13,7 @@
 #include <cstddef>
 #include <mutex>
 #include <optional>
+#include <utility>
 
 namespace octant::visuals::scene {
 
