@@ -75,8 +75,8 @@ constexpr glm::vec3 steppe(0.60F, 0.54F, 0.37F); ///< grass of dry climates
 constexpr glm::vec3 forest(0.14F, 0.25F, 0.12F);
 constexpr float tree_line_m = 1500.0F; ///< for which the stops are meant ...
 constexpr float snow_line_m = 2350.0F; ///< ... and the line of lasting snow
-constexpr std::array crops = {glm::vec3(0.66F, 0.58F, 0.33F), glm::vec3(0.33F, 0.46F, 0.19F),
-    glm::vec3(0.45F, 0.52F, 0.25F), glm::vec3(0.46F, 0.40F, 0.28F)};
+constexpr std::array crops = {glm::vec3(0.62F, 0.56F, 0.33F), glm::vec3(0.36F, 0.46F, 0.22F),
+    glm::vec3(0.45F, 0.51F, 0.26F), glm::vec3(0.47F, 0.41F, 0.28F)};
 const glm::vec3 mean_crop = 0.25F * (crops[0] + crops[1] + crops[2] + crops[3]);
 constexpr std::array arid_stops = {ColourStop{0.0F, {0.46F, 0.36F, 0.26F}}, ColourStop{900.0F, {0.57F, 0.42F, 0.29F}},
     ColourStop{1300.0F, {0.64F, 0.48F, 0.33F}}, ColourStop{1700.0F, {0.67F, 0.54F, 0.38F}},
@@ -192,7 +192,7 @@ glm::vec3 field_crop(const SiteConditions& site) {
     const float drills =
         visible_contrast(24.0F, site.footprint_m) * (2.0F * distance_from_border(site.north_m, 12.0F) * 2.0F - 1.0F);
     glm::vec3 colour =
-        glm::mix(mean_crop, own * (ripeness + 0.07F * drills), visible_contrast(360.0F, site.footprint_m));
+        glm::mix(mean_crop, own * (ripeness + 0.07F * drills), visible_contrast(100.0F, site.footprint_m));
     const float border_m =
         std::min(distance_from_border(east_m, field_m) * field_m, distance_from_border(site.north_m, row_m) * row_m);
     // As wide as can be seen, and as much fainter.

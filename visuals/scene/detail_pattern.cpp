@@ -1,7 +1,7 @@
-// Uneven ground: a sum of gradient noise in space (K. Perlin, "Improving Noise", SIGGRAPH 2002). Crowns: the highest of
-// domes around points, one at random in each cell of a lattice (S. Worley, "A Cellular Texture Basis Function",
-// SIGGRAPH 1996). All lattices divide the cube, so that it repeats without a seam. Coarser levels are filtered from the
-// first one.
+// Open ground: a sum of gradient noise in space (K. Perlin, "Improving Noise", SIGGRAPH 2002) and of small domes.
+// Crowns: large and small domes. Domes: the highest of paraboloids around points, one at random in each cell of a
+// lattice (S. Worley, "A Cellular Texture Basis Function", SIGGRAPH 1996). All lattices divide the cube, so that it
+// repeats without a seam. Coarser levels are filtered from the first one.
 #include "visuals/scene/detail_pattern.h"
 
 #include <glm/common.hpp>
@@ -13,6 +13,7 @@
 #include <cstddef>
 #include <mutex>
 #include <optional>
+#include <utility>
 
 namespace octant::visuals::scene {
 
@@ -158,10 +159,11 @@ struct Reliefs {
         constexpr int size = DetailPattern::side_texels;
         add(gradient_noise(4, size), 0.13F, open);
         add(gradient_noise(8, size), 0.46F, open);
-        add(gradient_noise(16, size), 1.0F, open);
+        add(gradient_noise(16, size), 0.5F, open);
         add(gradient_noise(32, size), 1.0F, open);
-        add(domes(3, size), 1.0F, crowns);
-        add(domes(5, size), 0.6F, crowns);
+        add(domes(9, size), 0.8F, open);
+        add(domes(5, size), 1.0F, crowns);
+        add(domes(3, size), 0.9F, crowns);
         add(gradient_noise(32, size), 0.8F, crowns);
     }
 };

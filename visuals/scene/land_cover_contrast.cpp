@@ -13,13 +13,13 @@ namespace {
 
 /// Standard deviations of the pattern over which one cover gives way to the other: about four pixels, so that a turn by
 /// half a pixel changes little.
-constexpr double border_width = 2.3;
+constexpr double border_width = 2.35;
 /// Snow thins out over a wider border than one cover meets another, and with less contrast: patches as sharp and as
 /// dark as those look like camouflage.
 constexpr double snow_border_width = 5.0;
 constexpr double snow_contrast = 0.4;
 /// Of the brightness of closed woods: lone crowns, with their shade on the ground.
-constexpr float lone_crown_brightness = 0.68F;
+constexpr float lone_crown_brightness = 0.685F;
 /// Of the mottling of ground between crowns: it is brightest where it is farthest from them, where the pattern is low.
 constexpr float mottling_between_crowns = -0.5F;
 /// Of the difference in hue: means are seldom of the very colours that covers are said to have.
