@@ -480,20 +480,23 @@ struct DetailPositionRow {
 /// What pairs of pixels see: in the upper half the pattern at the first one's place, 2^-15, in the lower half what the
 /// haze leaves of it, likewise; 0: no ground. Of both scales together: the squares of their shares are about one, so
 /// that the contrast stays while one gives way to the other while its levels are gone through. A level differs from the
-/// next one by its smallest and faintest features alone: none are mixed.
+/// next one by its smallest and faintest features alone: none are mixed. `ground`: PackedGround.
 HWY_INLINE hn::Vec<PixelPairBits> sample_detail(
-    const std::uint16_t* texels, hn::Vec<PixelPairBits> first_row, const DetailPositions& places) {
+    const std::uint16_t* texels, hn::Vec<PixelPairBits> ground, const DetailPositions& places) {
     const PixelPairBits bits;
     const PixelPairInts whole;
     const auto share_of = [&](hn::Vec<PixelPairInts> value, hn::Vec<PixelPairInts> share)
                               HWY_ATTR { return hn::ShiftRight<8>(hn::Mul(value, share)); };
     const auto half_texel = pair_bits(128);
     const auto all = hn::Set(whole, 256);
+    // Of two patterns, the first of which gives way to the second: the squares of their shares are about one together.
+    const auto share_of_first = [&](hn::Vec<PixelPairInts> through)
+                                    HWY_ATTR { return hn::Sub(all, share_of(through, through)); };
     static_assert(scene::DetailPattern::levels_per_scale == 2);
     // The nearer one of the levels above and below.
     const auto halves_through = hn::And(hn::ShiftRight<23>(places.level), pair_bits(3));
     const auto level = hn::ShiftRight<1>(hn::Add(halves_through, pair_bits(1)));
-    const auto at_level = [&](hn::Vec<PixelPairBits> of) HWY_ATTR {
+    const auto at_level = [&](hn::Vec<PixelPairBits> first_row, hn::Vec<PixelPairBits> of) HWY_ATTR {
         const auto along = [&](std::size_t axis) HWY_ATTR {
             return hn::Sub(hn::Shr(hn::BitCast(bits, places.fine[axis]), of), half_texel);
         };
@@ -504,12 +507,22 @@ HWY_INLINE hn::Vec<PixelPairBits> sample_detail(
         return hn::Sub(hn::BitCast(bits, coarse_place), half_texel);
     };
     const auto through = hn::BitCast(whole, hn::And(hn::ShiftRight<17>(places.level), pair_bits(0xff)));
-    const auto before = hn::Sub(all, through);
-    const auto fine = at_level(level);
-    const auto coarse =
-        sample_detail_level(texels, first_row, {on_coarse(0), on_coarse(1), on_coarse(2)}, FinestLevel());
-    const auto both = hn::Add(share_of(fine, hn::Sub(all, share_of(through, through))),
-        share_of(coarse, hn::Sub(all, share_of(before, before))));
+    const auto pattern_of = [&](hn::Vec<PixelPairBits> first_row) HWY_ATTR {
+        const auto coarse =
+            sample_detail_level(texels, first_row, {on_coarse(0), on_coarse(1), on_coarse(2)}, FinestLevel());
+        return hn::Add(share_of(at_level(first_row, level), share_of_first(through)),
+            share_of(coarse, share_of_first(hn::Sub(all, through))));
+    };
+    auto both = pattern_of(first_rows_of_kinds(ground));
+    static_assert(scene::LandCoverContrast::first_mixed_pattern == 56);
+    const auto is_mixed = hn::Eq(hn::And(ground, pair_bits(0x78)), pair_bits(56));
+    if (!hn::AllFalse(bits, is_mixed)) {
+        const auto past = hn::BitCast(whole, hn::ShiftLeft<5>(hn::And(ground, pair_bits(7))));
+        const auto open = pattern_of(hn::Zero(bits));
+        const auto mixed = hn::Sub(
+            share_of(both, share_of_first(past)), share_of(open, share_of_first(hn::Sub(all, past))));
+        both = hn::IfThenElse(hn::RebindMask(whole, is_mixed), mixed, both);
+    }
     const auto limited = hn::Min(hn::Max(both, hn::Set(whole, -32768)), hn::Set(whole, 32767));
     const auto seen = hn::Or(hn::ShiftLeft<16>(hn::BitCast(bits, limited)), places.left);
     return hn::IfThenZeroElse(hn::Eq(places.left, hn::Zero(bits)), seen);
@@ -537,8 +550,8 @@ public:
             for (std::size_t i = 0; i < pairs_at_once; ++i) {
                 ground[i] = ground_of_row(static_cast<int>(row + i))[pairs_per_row - 1];
             }
-            const auto first_row = first_rows_of_kinds(hn::LoadU(PixelPairBits(), ground.data()));
-            hn::Store(sample_detail(job_.detail_texture->texels, first_row, places), PixelPairBits(),
+            const auto of_pairs = hn::LoadU(PixelPairBits(), ground.data());
+            hn::Store(sample_detail(job_.detail_texture->texels, of_pairs, places), PixelPairBits(),
                 &right_edge_values_[row]);
         }
     }
@@ -567,9 +580,8 @@ public:
                 hn::Vec<PixelPairBits> even_ground;
                 hn::Vec<PixelPairBits> odd_ground;
                 hn::LoadInterleaved2(bits, ground + phases * i, even_ground, odd_ground);
-                hn::StoreInterleaved2(sample_detail(texels, first_rows_of_kinds(even_ground), even),
-                    sample_detail(texels, first_rows_of_kinds(odd_ground), odd), bits,
-                    &detail_texture.seen[phases * i]);
+                hn::StoreInterleaved2(sample_detail(texels, even_ground, even),
+                    sample_detail(texels, odd_ground, odd), bits, &detail_texture.seen[phases * i]);
             };
             if (row % 2 == 0) {
                 looked_up(a, interpolated_at({row, 1, i}, std::array{a, b}));

@@ -22,6 +22,12 @@ constexpr double snow_contrast = 0.4;
 constexpr float lone_crown_brightness = 0.685F;
 /// Of the mottling of ground between crowns: it is brightest where it is farthest from them, where the pattern is low.
 constexpr float mottling_between_crowns = -0.5F;
+/// The largest share of ground between crowns that shows crowns alone.
+constexpr double crowns_share =
+    1.0 - 4.0 * (LandCoverContrast::first_open_mixture - LandCoverContrast::first_mixed_pattern) /
+              LandCoverContrast::mixture_count;
+/// A cover of a smaller share than this appears as its share grows: at once it would have an edge.
+constexpr double least_share = 0.125;
 /// Of the difference in hue: means are seldom of the very colours that covers are said to have.
 constexpr double hue_share = 0.45;
 constexpr double min_mean = 1e-3;
@@ -52,7 +58,8 @@ struct Mixture {
     LandCover second;
     double border; ///< beyond it the second cover is seen, in standard deviations of the pattern
     bool has_crowns;
-    bool is_snow; ///< the second cover
+    bool is_snow;    ///< the second cover
+    double contrast; ///< of what is seen
 
     /// The share of the second cover at a value of the pattern, in standard deviations.
     double share_of_second(double deviations) const {
@@ -62,16 +69,16 @@ struct Mixture {
     }
 };
 
-Mixture mixture_of(int kind, const std::array<LandCover, LandCoverContrast::covers>& covers) {
-    const int last = LandCoverContrast::mixture_count - 1;
-    const double place = kind == last ? LandCoverContrast::covers : kind * 4.0 / LandCoverContrast::mixture_count;
-    const int below = std::min(static_cast<int>(place), LandCoverContrast::covers - 1);
-    Mixture mixture{
-        {}, covers[static_cast<std::size_t>(below)], place_of_share(1.0 - (place - below)), below == 1, below == 3};
-    mixture.first = below == 0 ? LandCover{mixture.second.colour, 0.0F} : covers[static_cast<std::size_t>(below - 1)];
+/// Of the cover before one and of that one, by the second one's share. Before the first cover is land of its colour that
+/// does not change.
+Mixture mixture_of(std::size_t cover, double second, const std::array<LandCover, LandCoverContrast::covers>& covers) {
+    Mixture mixture{{}, covers[cover], place_of_share(1.0 - second), cover == 1, cover == 3, 1.0};
+    if (mixture.is_snow) { mixture.contrast = glm::mix(1.0, snow_contrast, std::min(4.0 * second, 1.0)); }
+    mixture.first = cover == 0 ? LandCover{mixture.second.colour, 0.0F} : covers[cover - 1];
     if (mixture.has_crowns) {
         mixture.first.colour *= lone_crown_brightness;
-        mixture.second.mottling *= mottling_between_crowns;
+        const double through = std::max((second - crowns_share) / (1.0 - crowns_share), 0.0);
+        mixture.second.mottling *= glm::mix(mottling_between_crowns, -1.0F, static_cast<float>(through));
     }
     return mixture;
 }
@@ -124,11 +131,28 @@ Shares shares_of_mixture(const Mixture& mixture) {
     for (glm::dvec3& share : shares) {
         share = share / mean - 1.0;
         const glm::dvec3 grey((share.x + share.y + share.z) / 3.0);
-        share = glm::mix(grey, share, hue_share) * (mixture.is_snow ? snow_contrast : 1.0);
+        share = glm::mix(grey, share, hue_share) * mixture.contrast;
         most = std::max({most, share.x, share.y, share.z});
     }
     // Less contrast rather than another mean.
     for (glm::dvec3& share : shares) { share *= max_share / most; }
+    return shares;
+}
+
+/// The same, continuous from one mixture to the next.
+Shares shares_of_kind(int kind, const std::array<LandCover, LandCoverContrast::covers>& covers) {
+    constexpr int kinds = LandCoverContrast::mixture_count / LandCoverContrast::covers;
+    const bool is_last = kind == LandCoverContrast::mixture_count - 1;
+    const double second = is_last ? 1.0 : kind % kinds / static_cast<double>(kinds);
+    const auto shares_at = [&](double share) {
+        return shares_of_mixture(mixture_of(static_cast<std::size_t>(kind / kinds), share, covers));
+    };
+    const double pure = second < 0.5 ? 0.0 : 1.0;
+    const double from_pure = std::abs(second - pure) / least_share;
+    if (from_pure >= 1.0) { return shares_at(second); }
+    Shares shares = shares_at(pure);
+    const Shares mixed = shares_at(std::abs(pure - least_share));
+    for (std::size_t i = 0; i < shares.size(); ++i) { shares[i] = glm::mix(shares[i], mixed[i], from_pure); }
     return shares;
 }
 
@@ -145,7 +169,7 @@ LandCoverContrast::LandCoverContrast(const std::array<LandCover, covers>& of, co
     : pattern_(&pattern) {
     table_.reserve(std::size_t{mixture_count} * pattern_step_count);
     for (int kind = 0; kind < mixture_count; ++kind) {
-        for (const glm::dvec3& shares : shares_of_mixture(mixture_of(kind, of))) {
+        for (const glm::dvec3& shares : shares_of_kind(kind, of)) {
             table_.push_back(packed_shares(shares));
         }
     }

@@ -8,6 +8,7 @@ layout(binding = 3) uniform sampler2D contrast;
 const float texels_per_m = 16.0;
 const float texels_a_side = 64.0;
 const int first_open_mixture = 64; // those before it show crowns
+const int first_mixed_pattern = 56;
 const mat3 pattern_from_world = mat3( // its columns are what the world's axes are in the pattern's
     0.649782467, -0.739147362, 0.177324346,
     0.618047243, 0.377951710, -0.689325837,
@@ -35,10 +36,14 @@ vec3 detail_at(vec3 place_m, vec3 across, vec3 down, float covers) {
     int mixture = int(clamp(covers * 127.5 + 0.02, 0.0, 127.0));
     vec2 fine_of_both = textureLod(pattern, place_in_pattern(place_m, scale), in_scale).rg;
     vec2 coarse_of_both = textureLod(pattern, place_in_pattern(place_m, scale + 1), 0.0).rg;
-    float fine = mixture < first_open_mixture ? fine_of_both.g : fine_of_both.r;
-    float coarse = mixture < first_open_mixture ? coarse_of_both.g : coarse_of_both.r;
-    vec2 sought = (vec2(fine, coarse) * (255.0 / 128.0) - 1.0) *
-                  (1.0 - vec2(through * through, (1.0 - through) * (1.0 - through)));
-    int pattern_step = int(clamp((sought.x + sought.y) * 32.0 + 32.0, 0.0, 63.0));
+    vec2 share = 1.0 - vec2(through * through, (1.0 - through) * (1.0 - through));
+    vec2 open_and_crowns = (fine_of_both * (255.0 / 128.0) - 1.0) * share.x +
+                           (coarse_of_both * (255.0 / 128.0) - 1.0) * share.y;
+    // Crowns give way to the inverse of open ground.
+    float past = clamp(float(mixture - first_mixed_pattern) / float(first_open_mixture - first_mixed_pattern), 0.0, 1.0);
+    float sought = mixture < first_open_mixture
+                       ? open_and_crowns.y * (1.0 - past * past) - open_and_crowns.x * (past * (2.0 - past))
+                       : open_and_crowns.x;
+    int pattern_step = int(clamp(sought * 32.0 + 32.0, 0.0, 63.0));
     return texelFetch(contrast, ivec2(pattern_step, mixture), 0).rgb * (1023.0 / 512.0) - 1.0;
 }
