@@ -349,13 +349,13 @@ glm::vec3 dust_colour(const SiteConditions& site, const glm::vec3& dust) {
 /// Meadow and rock differ less in hue than where both are seen alone: above the tree line turf is nearly as grey as
 /// rock, which by a green meadow's share would look pink.
 std::array<scene::LandCover, scene::LandCoverContrast::covers> temperate_covers() {
-    return {scene::LandCover{forest, 0.25F}, scene::LandCover{{0.385F, 0.425F, 0.285F}, 0.10F},
-        scene::LandCover{{0.47F, 0.455F, 0.37F}, 0.15F}, snow_on_ground};
+    return {scene::LandCover{forest, 0.31F}, scene::LandCover{{0.385F, 0.425F, 0.285F}, 0.125F},
+        scene::LandCover{{0.47F, 0.455F, 0.37F}, 0.185F}, snow_on_ground};
 }
 
 std::array<scene::LandCover, scene::LandCoverContrast::covers> arid_covers() {
-    return {scene::LandCover{shrubs, 0.24F}, scene::LandCover{arid_stops[1].colour, 0.09F},
-        scene::LandCover{arid_stops[2].colour, 0.15F}, snow_on_ground};
+    return {scene::LandCover{shrubs, 0.27F}, scene::LandCover{arid_stops[1].colour, 0.115F},
+        scene::LandCover{arid_stops[2].colour, 0.185F}, snow_on_ground};
 }
 
 std::array<scene::LandCover, scene::LandCoverContrast::covers> dust_covers(const glm::vec3& dust) {

@@ -13,7 +13,7 @@ namespace {
 
 /// Standard deviations of the pattern over which one cover gives way to the other: about four pixels, so that a turn by
 /// half a pixel changes little.
-constexpr double border_width = 2.35;
+constexpr double border_width = 2.28;
 /// Snow thins out over a wider border than one cover meets another, and with less contrast: patches as sharp and as
 /// dark as those look like camouflage.
 constexpr double snow_border_width = 5.0;
