@@ -109,8 +109,9 @@ const glm::dvec3 weights(0.2126, 0.7152, 0.0722); ///< luminance of linear sRGB
 // horizon.
 const glm::vec3 usual_ambient(0.39F, 0.42F, 0.47F);
 const glm::vec3 usual_sunlight(0.80F, 0.78F, 0.74F);
-constexpr double low_ambient = 1.40;
-constexpr double low_horizon = 0.66; ///< of luminance
+constexpr double low_ambient = 1.50;
+constexpr double ambient_power = 0.7; ///< of lowness: level ground gets darker all the way to the horizon
+constexpr double low_horizon = 0.66;  ///< of luminance
 /// Exposure makes up for so much of lost sunlight, in stops a stop, under a high sun and under one at the horizon.
 constexpr double exposure_power = 0.60;
 constexpr double low_exposure_power = 0.85;
@@ -233,7 +234,7 @@ Daylight::Daylight(const DaylightOptions& options)
     const glm::dvec3 tint =
         sky_tint(ExposedSky(elevation_rad, usual_horizon)) / sky_tint(ExposedSky(usual_elevation_rad, usual_horizon));
     // The camera takes half of the light's own colour for white.
-    ambient_ = usual_ambient * glm::vec3(glm::sqrt(tint) * glm::mix(1.0, low_ambient, low));
+    ambient_ = usual_ambient * glm::vec3(glm::sqrt(tint) * glm::mix(1.0, low_ambient, std::pow(low, ambient_power)));
     const auto least_green = static_cast<float>(glm::mix(min_green, low_min_green, low));
     ambient_.y = std::max(ambient_.y, least_green * 0.5F * (ambient_.x + ambient_.z));
     const glm::dvec3 share = sunlight_share(elevation_rad);

@@ -199,7 +199,9 @@ TEST_CASE("frames in which a program was stopped for the other one's turn are ma
         CHECK(flown.flight.paused_frames() > 0);
         CHECK(flown.flight.paused_frames() + flown.statistics.frames == 198);
         CHECK(flown.disagreement.empty());
-        CHECK_THAT(ui::report::value_of(flown.run.facts, "note"), Contains("turns of octant compare"));
+        CHECK(std::ranges::any_of(flown.run.facts, [](const auto& fact) {
+            return fact.first == "note" && fact.second.find("turns of octant compare") != std::string::npos;
+        }));
     }
     CHECK_THAT(read_file(out / "compare.html"), Contains("the program was stopped"));
     CHECK_THAT(read_file(out / "compare.html"), !Contains("does not record when it is stopped"));

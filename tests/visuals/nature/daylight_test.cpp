@@ -53,7 +53,7 @@ TEST_CASE(
     float last_warmth = 0.0F;
     float last_share = 10.0F;
     float last_on_level = 10.0F;
-    for (const double elevation_deg : {60.0, 30.0, 15.0, 8.0, 4.0, 1.0}) {
+    for (const double elevation_deg : {60.0, 30.0, 25.0, 20.0, 15.0, 12.0, 8.0, 4.0, 1.0}) {
         INFO(elevation_deg);
         const Daylight day = under(elevation_deg);
         CHECK(warmth(day.sunlight()) > last_warmth);
