@@ -91,16 +91,14 @@ std::optional<SceneryShadows::Ellipse> SceneryShadows::shadow_of(const ShadowCas
 }
 
 SceneryShadows::Ring SceneryShadows::ring_of(
-    const ShadowCaster& caster, const Ellipse& ellipse, float size, float strength) const {
+    const ShadowCaster& caster, const Ellipse& ellipse, float size, float strength, std::size_t step) const {
     Ring ring;
-    for (std::size_t i = 0; i < corners; ++i) {
-        const glm::vec2 at_m = ellipse.place_m(corner_of(i, caster.nearness) * size);
+    for (std::size_t i = 0; i < corners / step; ++i) {
+        const glm::vec2 at_m = ellipse.place_m(corner_of(step * i, caster.nearness) * size);
         ring[i].at_m = glm::vec3(at_m, strength);
         for (unsigned side = 0; side < 3; ++side) {
-            if (ellipse.crosses[side] &&
-                glm::dot(inwards_[side], at_m - glm::vec2(triangle_[side].position_m)) < 0.0F) {
-                ring[i].outside |= 1U << side;
-            }
+            const glm::vec2 off_m = at_m - glm::vec2(triangle_[side].position_m);
+            if (ellipse.crosses[side] && glm::dot(inwards_[side], off_m) < 0.0F) { ring[i].outside |= 1U << side; }
         }
     }
     return ring;
@@ -109,21 +107,17 @@ SceneryShadows::Ring SceneryShadows::ring_of(
 void SceneryShadows::add(const ShadowCaster& caster, float scale, const StandingTriangles& to) const {
     const std::optional<Ellipse> ellipse = shadow_of(caster);
     if (!ellipse) { return; }
-    Ring ring = ring_of(caster, *ellipse, 1.0F - rim * caster.nearness, caster.strength);
-    if (caster.nearness > 0.0F) {
-        add_part(ring, scale, to);
-        return;
-    }
-    for (std::size_t i = 1; i < corners / 2; ++i) { ring[i] = ring[2 * i]; }
-    add_part(std::span(ring).first<corners / 2>(), scale, to);
+    const std::size_t step = caster.nearness > 0.0F ? 1 : 2;
+    const Ring ring = ring_of(caster, *ellipse, 1.0F - rim * caster.nearness, caster.strength, step);
+    add_part(std::span(ring).first(corners / step), scale, to);
 }
 
 void SceneryShadows::add_rim(const ShadowCaster& caster, float scale, const StandingTriangles& to) const {
     if (caster.nearness <= 0.0F) { return; }
     const std::optional<Ellipse> ellipse = shadow_of(caster);
     if (!ellipse) { return; }
-    const Ring inner = ring_of(caster, *ellipse, 1.0F - rim * caster.nearness, caster.strength);
-    const Ring outer = ring_of(caster, *ellipse, 1.0F + rim * caster.nearness, 0.0F);
+    const Ring inner = ring_of(caster, *ellipse, 1.0F - rim * caster.nearness, caster.strength, 1);
+    const Ring outer = ring_of(caster, *ellipse, 1.0F + rim * caster.nearness, 0.0F, 1);
     for (std::size_t i = 0; i < corners; ++i) {
         const std::size_t next = (i + 1) % corners;
         add_part(std::array{inner[i], outer[i], outer[next], inner[next]}, scale, to);

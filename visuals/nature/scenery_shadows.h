@@ -89,7 +89,9 @@ private:
 
     std::optional<Ellipse> shadow_of(const ShadowCaster& caster) const;
     static void cut(Outline& outline, const glm::vec2& from_m, const glm::vec2& inwards);
-    Ring ring_of(const ShadowCaster& caster, const Ellipse& ellipse, float size, float strength) const;
+    /// The corners of an outline, or every `step`th of them.
+    Ring ring_of(
+        const ShadowCaster& caster, const Ellipse& ellipse, float size, float strength, std::size_t step) const;
     void add_part(std::span<const Corner> polygon, float scale, const StandingTriangles& to) const;
 
     glm::vec3 to_sun_;
