@@ -195,6 +195,8 @@ constexpr double disc_turns_per_s = 3.0;
 constexpr double slack = 0.06;
 /// Blades begin at this share of the radius.
 constexpr double blade_root = 0.3;
+/// The distance of a disc from its blades, as a share of its radius: by depth it is in front of all of them, or behind.
+constexpr double apart = 0.01;
 /// The length of a plume.
 constexpr double plume_radii = 9.0;
 /// The length of a trail of vapour.
@@ -453,8 +455,8 @@ private:
         }
     }
 
-    /// The disc of a pivot, in the plane that touches its blades from one side: of those whose other parts all lie on
-    /// the other side, if one is.
+    /// The disc of a pivot, in a plane just beside its blades: one of which all other parts lie on the blades' side, if
+    /// there is one.
     static std::optional<Effect> disc_of(const PolygonModel& model, std::uint32_t number) {
         const Pivot& pivot = model.pivots[number];
         Effect disc{.kind = Kind::Disc, .radius_m = 0.0, .pivot = number, .has_plane = false};
@@ -475,7 +477,7 @@ private:
                 if (corner_m.x >= blade_root * disc.radius_m) { reach_m = std::max(reach_m, side * corner_m.y); }
             }
             disc.outward = side * pivot.axis;
-            disc.position_m = pivot.point_m + reach_m * disc.outward;
+            disc.position_m = pivot.point_m + (reach_m + apart * disc.radius_m) * disc.outward;
             disc.has_plane = reach_along(model, disc.outward, pivot.part) <=
                              glm::dot(disc.outward, disc.position_m) + slack * disc.radius_m;
         }
