@@ -392,8 +392,8 @@ private:
             const float strength = std::min((one.height_px - shadow_px.x) / (shadow_px.y - shadow_px.x), 1.0F);
             const float near = std::clamp((one.height_px - rim_px.x) / (rim_px.y - rim_px.x), 0.0F, 1.0F);
             if (strength <= 0.0F) { continue; }
-            const ShadowCaster caster{one.anchor.at_m, one.radius_m, one.height_m, strength * sun_of(one),
-                one.item.kind == SceneryKind::Conifer ? conifer_taper : 0.0F, near};
+            const ShadowCaster caster{one.anchor.at_m, one.anchor.slope, one.radius_m, one.height_m,
+                strength * sun_of(one), one.item.kind == SceneryKind::Conifer ? conifer_taper : 0.0F, near};
             if (shadows_.may_fall_on_triangle(caster)) { casters_.push_back(caster); }
         }
         std::ranges::sort(casters_, std::ranges::greater(), &ShadowCaster::strength);

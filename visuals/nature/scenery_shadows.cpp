@@ -45,8 +45,6 @@ bool SceneryShadows::begin(const std::array<models::ColourVertex, 3>& triangle) 
     if (up.z <= 0.0F || glm::dot(up, a) >= 0.0F) { return false; }
     area_m2_ = up.z;
     slope_ = glm::vec2(up) / -up.z;
-    const float sinks = to_sun_.z - glm::dot(slope_, glm::vec2(to_sun_));
-    shadow_per_m_ = -glm::vec2(to_sun_) / std::max(sinks, level_ / max_length);
     for (std::size_t i = 0; i < 3; ++i) {
         const glm::vec2 side(triangle[(i + 1) % 3].position_m - triangle[i].position_m);
         inwards_[i] = glm::normalize(glm::vec2(-side.y, side.x));
@@ -69,18 +67,15 @@ void SceneryShadows::cut(Outline& outline, const glm::vec2& from_m, const glm::v
     outline = kept;
 }
 
-/// Of the triangle's plane, which need not be that on which the caster stands.
 std::optional<SceneryShadows::Ellipse> SceneryShadows::shadow_of(const ShadowCaster& caster) const {
     const glm::vec2 foot_m(caster.foot_m);
-    const glm::vec3& corner_m = triangle_[0].position_m;
-    const float over_plane_m = caster.foot_m.z - corner_m.z - glm::dot(slope_, foot_m - glm::vec2(corner_m));
-    const glm::vec2 half_m = 0.5F * caster.height_m * shadow_per_m_;
+    const float sinks = to_sun_.z - glm::dot(caster.slope, glm::vec2(to_sun_));
+    const glm::vec2 half_m = -0.5F * caster.height_m / std::max(sinks, level_ / max_length) * glm::vec2(to_sun_);
     const float drawn_out_m = glm::length(half_m);
     const float long_m = std::sqrt(caster.radius_m * caster.radius_m + drawn_out_m * drawn_out_m);
     const glm::vec2 along = drawn_out_m > 1e-3F ? half_m / drawn_out_m : glm::vec2(1.0F, 0.0F);
     const float width_m = caster.radius_m / (1.0F + 0.3F * caster.taper); // a tapered one is widest before its middle
-    Ellipse ellipse{foot_m + half_m + over_plane_m * shadow_per_m_, long_m * along,
-        width_m * glm::vec2(-along.y, along.x), caster.taper, {}};
+    Ellipse ellipse{foot_m + half_m, long_m * along, width_m * glm::vec2(-along.y, along.x), caster.taper, {}};
     const float reach_m = (1.0F + rim * caster.nearness) * long_m;
     for (std::size_t i = 0; i < 3; ++i) {
         const float inside_m = glm::dot(inwards_[i], ellipse.middle_m - glm::vec2(triangle_[i].position_m));

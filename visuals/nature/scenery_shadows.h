@@ -18,6 +18,7 @@ namespace octant::visuals::nature {
 /// What casts a shadow: an upright ellipsoid on the ground.
 struct ShadowCaster {
     glm::vec3 foot_m{0.0F}; ///< world axes with the eye subtracted
+    glm::vec2 slope{0.0F};  ///< of the ground on which it stands, metres up a metre east and north
     float radius_m = 1.0F;
     float height_m = 1.0F;
     float strength = 1.0F; ///< 1: all sunlight is taken away; 0: none
@@ -25,7 +26,8 @@ struct ShadowCaster {
     float nearness = 0.0F; ///< 0: the outline is sharp and has 8 corners; 1: it has 16 and a whole soft rim
 };
 
-/// Cuts the shadows of what stands on the ground to a triangle of the ground. The shadows lie in its plane and show its
+/// Cuts the shadows of what stands on the ground to a triangle of the ground. On the plan a shadow is the same on all
+/// triangles: that on a plane of the slope at the caster's foot. It lies in the triangle's plane and shows its
 /// colours and its detail pattern, darker; where two overlap the one painted later is seen, so that overlapping shadows
 /// of one strength change nothing.
 class SceneryShadows {
@@ -101,7 +103,6 @@ private:
     std::array<models::ColourVertex, 3> triangle_{};
     std::array<glm::vec2, 3> inwards_{}; ///< unit vectors across the sides from each corner to the next
     glm::vec2 slope_{0.0F};
-    glm::vec2 shadow_per_m_{0.0F}; ///< where the shadow of what is a metre high falls
     float area_m2_ = 1.0F;         ///< twice
 };
 
