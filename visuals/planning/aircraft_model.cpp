@@ -16,6 +16,7 @@
 #include <cstddef>
 #include <iterator>
 #include <limits>
+#include <numeric>
 #include <optional>
 #include <span>
 #include <string_view>
@@ -373,6 +374,60 @@ std::vector<std::uint32_t> first_vertices_of(const models::polygons::PolygonMode
     return first;
 }
 
+/// AircraftModel::neighbours. Where several polygons meet at a side, it is the one that is bent least from the first.
+std::vector<std::uint32_t> neighbours_of(
+    const models::polygons::PolygonModel& closed, std::span<const scene::ModelVertex> drawn) {
+    const auto position_of = [&](std::uint32_t corner) {
+        const glm::dvec3& at_m = closed.vertices_m[closed.corner_vertices[corner]];
+        return std::array{at_m.x, at_m.y, at_m.z};
+    };
+    std::vector<std::uint32_t> sorted(closed.corner_vertices.size());
+    std::iota(sorted.begin(), sorted.end(), 0U);
+    std::ranges::sort(sorted, {}, position_of);
+    std::vector<std::uint32_t> places(sorted.size()); // equal numbers at equal positions
+    for (std::uint32_t i = 1; i < sorted.size(); ++i) {
+        const bool is_new = position_of(sorted[i]) != position_of(sorted[i - 1]);
+        places[sorted[i]] = places[sorted[i - 1]] + (is_new ? 1U : 0U);
+    }
+
+    struct Side {
+        std::array<std::uint32_t, 3> key; ///< part, and the places of its ends, the lower one first
+        bool is_reversed;
+        std::uint32_t corner;
+        std::uint32_t polygon;
+    };
+
+    std::vector<Side> sides;
+    sides.reserve(sorted.size());
+    std::vector<glm::dvec3> normals;
+    for (std::uint32_t polygon = 0; polygon < closed.polygons.size(); ++polygon) {
+        normals.push_back(models::polygons::normal_of(closed, polygon));
+        const models::polygons::Polygon& own = closed.polygons[polygon];
+        for (std::uint32_t i = 0; i < own.corner_count; ++i) {
+            const std::uint32_t corner = own.first_corner + i;
+            const std::uint32_t from = places[corner];
+            const std::uint32_t to = places[own.first_corner + (i + 1) % own.corner_count];
+            sides.push_back({{drawn[corner].part, std::min(from, to), std::max(from, to)}, from > to, corner, polygon});
+        }
+    }
+    std::ranges::stable_sort(sides, {}, &Side::key);
+    std::vector<std::uint32_t> neighbours(sorted.size(), models::none);
+    for (auto first = sides.begin(); first != sides.end();) {
+        const auto end = std::find_if(first, sides.end(), [&](const Side& side) { return side.key != first->key; });
+        for (auto side = first; side != end; ++side) {
+            double least_bent = -std::numeric_limits<double>::infinity();
+            for (auto other = first; other != end; ++other) {
+                const double cosine = glm::dot(normals[side->polygon], normals[other->polygon]);
+                if (other->is_reversed == side->is_reversed || cosine <= least_bent) { continue; }
+                least_bent = cosine;
+                neighbours[side->corner] = other->polygon;
+            }
+        }
+        first = end;
+    }
+    return neighbours;
+}
+
 /// Where the triangles of each polygon of a list begin, and where those of the last one end.
 std::vector<std::uint32_t> first_indices_of(
     const models::polygons::PolygonModel& model, std::span<const std::uint32_t> list) {
@@ -440,9 +495,10 @@ AircraftModel aircraft_model(models::polygons::PolygonModel polygons, draworder:
     const AxisAlignedBox hull = model_bounds(polygons);
     scene::ModelBuffers buffers = maker.take();
     std::vector<OpacityRun> opacity_runs = opacity_runs_of(polygons, order.polygons());
+    std::vector<std::uint32_t> neighbours = neighbours_of(drawn, buffers.vertices);
     AircraftModel model{std::move(polygons), std::move(order), std::move(buffers), first_vertices_of(drawn),
-        std::move(first_indices), all, std::move(file_list), hull, {radius_m, eye_m}, std::move(shaded), {}, nullptr,
-        nullptr, {0.0}};
+        std::move(neighbours), std::move(first_indices), all, std::move(file_list), hull, {radius_m, eye_m},
+        std::move(shaded), {}, nullptr, nullptr, {0.0}};
     model.opacity_runs = std::move(opacity_runs);
     return model;
 }

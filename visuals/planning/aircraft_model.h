@@ -80,6 +80,9 @@ struct AircraftModel {
     scene::ModelBuffers buffers;
     /// The index of the first vertex of each polygon, and the end of the last one's.
     std::vector<std::uint32_t> first_vertices;
+    /// For each of these vertices the polygon beyond the side that begins there, of the same part; models::none where
+    /// there is none.
+    std::vector<std::uint32_t> neighbours;
     /// The place in the index buffer at which each polygon of order.polygons() begins, and the end of the last one.
     std::vector<std::uint32_t> first_indices;
     scene::IndexRange file_order;

@@ -1,5 +1,6 @@
 #include "visuals/planning/ground_pieces.h"
 
+#include "models/collapse_sequence.h"
 #include "models/colour_vertex.h"
 #include "sim/base/plane.h"
 #include "sim/base/units.h"
@@ -314,9 +315,15 @@ namespace {
 /// Share of a sunlit surface's colour that is left where a shadow is darkest.
 constexpr float shadow_share = 0.55F;
 constexpr double sun_diameter_rad = 0.0093;
-/// A shadow has another edge for so many pixels of its penumbra, but at most max_edges.
+/// A shadow has another edge for so many pixels of its penumbra, but at most max_edges, and fewer where it is faint.
 constexpr double edge_px = 2.5;
 constexpr int max_edges = 5;
+/// The least darkening from one edge to the next, a share of the light.
+constexpr double min_step = 0.03;
+/// The error of a shadow that its penumbra hides, as a share of the penumbra's width.
+constexpr double hidden_share = 0.25;
+/// The size of the cells in which the polygons of a penumbra are put together, as a share of its width.
+constexpr double cell_share = 1.0;
 /// The width of the strips of which an aircraft's shadow is made, as wings and fuselage are, as a share of its half
 /// diagonal: where the penumbra is wider, no place is without sun.
 constexpr double strip_share = 0.15;
@@ -378,17 +385,25 @@ ConvexVolume shadow_volume_of(const OrientedBox& hull, const glm::dvec3& to_sun,
     return volume;
 }
 
+constexpr double root_half = 0.70710678118654752;
+
+/// Eight directions, counter-clockwise.
+constexpr std::array<glm::dvec2, 8> eighth_ways = {glm::dvec2(1.0, 0.0), {root_half, root_half}, {0.0, 1.0},
+    {-root_half, root_half}, {-1.0, 0.0}, {-root_half, -root_half}, {0.0, -1.0}, {root_half, -root_half}};
+
 } // namespace
 
-/// The extent of polygons across the light: in two directions square to it and to one another. What light carries from
-/// one polygon to another has places in both extents.
+/// Polygons as the light sees them. Their extents across it are in two directions square to it and to one another: what
+/// light carries from one polygon to another has places in both extents.
 class LightExtents {
 public:
-    /// Forgets all polygons.
-    void begin(const glm::dvec3& to_sun) {
+    /// Forgets all polygons. `origin_m`: a corner of cells, and where octagons are measured from.
+    void begin(const glm::dvec3& to_sun, const glm::dvec3& origin_m) {
         const glm::dvec3 aside = std::abs(to_sun.z) < 0.9 ? glm::dvec3(0.0, 0.0, 1.0) : glm::dvec3(1.0, 0.0, 0.0);
+        to_sun_ = to_sun;
         across_ = glm::normalize(glm::cross(to_sun, aside));
         along_ = glm::cross(to_sun, across_);
+        origin_m_ = origin_m;
         ends_m_.clear();
     }
 
@@ -408,22 +423,72 @@ public:
         }
     }
 
+    /// The square cell, across the light, that holds the middle of a polygon's extent; nothing for one longer than
+    /// that.
+    std::optional<std::array<double, 2>> cell_of(std::span<const ViewVertex> polygon, double cell_m) const {
+        const Ends ends = ends_of(polygon);
+        const glm::dvec2 size_m = ends.max_m - ends.min_m;
+        if (std::max(size_m.x, size_m.y) > cell_m || cell_m <= 0.0) { return std::nullopt; }
+        const glm::dvec2 cell = glm::floor(0.5 * (ends.min_m + ends.max_m) / cell_m);
+        return std::array{cell.x, cell.y};
+    }
+
+    /// An octagon around polygons as the light sees them, so far from the origin in eight directions.
+    struct Octagon {
+        std::array<double, 8> reach_m;
+        double sunwards_m = -std::numeric_limits<double>::infinity(); ///< of the polygon nearest to the sun
+
+        Octagon() { reach_m.fill(-std::numeric_limits<double>::infinity()); }
+    };
+
+    /// Makes an octagon hold a polygon too.
+    void extend(Octagon& octagon, std::span<const ViewVertex> polygon) const {
+        for (const ViewVertex& corner : polygon) {
+            const glm::dvec2 at_m = seen_m(corner.at_m);
+            for (std::size_t i = 0; i < 4; ++i) {
+                const double reach_m = glm::dot(at_m, eighth_ways[i]);
+                octagon.reach_m[i] = std::max(octagon.reach_m[i], reach_m);
+                octagon.reach_m[i + 4] = std::max(octagon.reach_m[i + 4], -reach_m);
+            }
+            octagon.sunwards_m = std::max(octagon.sunwards_m, glm::dot(to_sun_, corner.at_m - origin_m_));
+        }
+    }
+
+    /// Fills in the corners of an octagon, grown by a distance; it faces the sun.
+    void corners_of(const Octagon& octagon, double grown_m, ViewPolygon& corners) const {
+        corners.clear();
+        const glm::dvec3 middle_m = origin_m_ + octagon.sunwards_m * to_sun_;
+        for (std::size_t i = 0; i < 8; ++i) {
+            const double own_m = octagon.reach_m[i] + grown_m;
+            const double next_m = octagon.reach_m[(i + 1) % 8] + grown_m;
+            const glm::dvec2& out = eighth_ways[i];
+            const glm::dvec2 at_m = own_m * out + (std::sqrt(2.0) * next_m - own_m) * glm::dvec2(-out.y, out.x);
+            corners.push_back({middle_m + at_m.x * across_ + at_m.y * along_, false});
+        }
+    }
+
 private:
     struct Ends {
         glm::dvec2 min_m{std::numeric_limits<double>::infinity()};
         glm::dvec2 max_m{-std::numeric_limits<double>::infinity()};
     };
 
-    Ends ends_of(const ViewPolygon& polygon) const {
+    Ends ends_of(std::span<const ViewVertex> polygon) const {
         Ends ends;
         for (const ViewVertex& corner : polygon) {
-            const glm::dvec2 at_m(glm::dot(across_, corner.at_m), glm::dot(along_, corner.at_m));
+            const glm::dvec2 at_m = seen_m(corner.at_m);
             ends.min_m = glm::min(ends.min_m, at_m);
             ends.max_m = glm::max(ends.max_m, at_m);
         }
         return ends;
     }
 
+    glm::dvec2 seen_m(const glm::dvec3& at_m) const {
+        return {glm::dot(across_, at_m - origin_m_), glm::dot(along_, at_m - origin_m_)};
+    }
+
+    glm::dvec3 to_sun_{0.0, 0.0, 1.0};
+    glm::dvec3 origin_m_{0.0};
     glm::dvec3 across_{1.0, 0.0, 0.0};
     glm::dvec3 along_{0.0, 1.0, 0.0};
     std::vector<Ends> ends_m_;
@@ -444,7 +509,8 @@ Plane side_of(const glm::dvec3& from_m, const glm::dvec3& to_m) {
 /// ground below and clipped to that triangle. The pieces are opaque and have the triangle's own colours, darkened, so
 /// that overlapping pieces of one darkness change nothing; decals have shadows of their own. Around the whole shadow
 /// lies the outer half of its penumbra, as wide as the sun makes it over the light's way from the middle of the
-/// aircraft: the same polygons, grown, in lighter colours and painted before it. Where the penumbra is wider than the
+/// aircraft: the polygons of the aircraft's outlines, grown, in lighter colours and painted before it. Polygons that
+/// are small beside the penumbra are put together, as no edge of them is seen. Where the penumbra is wider than the
 /// shadow's own strips, all of it is lighter. Only the first ground on the way of the light has the shadow; ground
 /// casts no shadow here. The volume in which ground is looked for is that of the aircraft's own model.
 class ShadowCaster {
@@ -477,7 +543,7 @@ public:
             return;
         }
         OrientedBox casting = hull;
-        casting.half_m += edges_.front().grown_m;
+        casting.half_m += (1.0 + hidden_share) * edges_.back().grown_m;
         const ConvexVolume volume = shadow_volume_of(casting, to_sun_, path_m, reach_m);
 
         struct Look {
@@ -494,12 +560,13 @@ public:
         if (candidates_.empty()) { return; }
         // The shadow's error is that of the model, drawn out along the light; a small part of the penumbra hides it.
         const double nearest_m = std::max(glm::length(position_m) - reach_m, 0.0);
-        const double hidden_m = std::max(max_error_px * view.pixel_rad * nearest_m, 0.25 * edges_.front().grown_m);
+        const double hidden_m =
+            std::max(max_error_px * view.pixel_rad * nearest_m, hidden_share * edges_.back().grown_m);
         const bool far_model_casts = !aircraft.far_parts.empty() && aircraft.far_error_m / to_sun_.z <= hidden_m;
         if (far_model_casts) {
-            collect_faces(*aircraft.far_model, aircraft.far_parts);
+            collect_faces(*aircraft.far_model, aircraft.far_parts, hull.centre_m);
         } else {
-            collect_faces(*aircraft.model, aircraft.parts);
+            collect_faces(*aircraft.model, aircraft.parts, hull.centre_m);
         }
         for (const std::uint32_t candidate : candidates_) {
             place_triangle(ground_->triangles, candidate, triangle_);
@@ -517,6 +584,15 @@ private:
         std::size_t edge = 0; ///< Index into edges_.
     };
 
+    /// A polygon that faces the sun: its corners in sunlit_corners_ and its number.
+    struct SunlitPolygon {
+        std::size_t first = 0;
+        std::size_t count = 0;
+        std::uint32_t polygon = 0;
+    };
+
+    using CellPolygon = std::pair<std::array<double, 2>, SunlitPolygon>;
+
     /// One of the outlines of a shadow: its distance from the whole shadow, and the share of light that is left inside.
     struct Edge {
         double grown_m = 0.0;
@@ -529,19 +605,18 @@ private:
         std::size_t edge = 0;
     };
 
-    /// Fills in edges_, the outermost first, the shadow's own last. `penumbra_m`, `penumbra_px`: the width of the half
+    /// Fills in edges_, the shadow's own first, the outermost last. `penumbra_m`, `penumbra_px`: the width of the half
     /// outside.
     void choose_edges(double size_m, double penumbra_m, double penumbra_px) {
         const double strip_m = strip_share * size_m;
         const double dark = (1.0 - static_cast<double>(shadow_share)) * std::min(strip_m / (2.0 * penumbra_m), 1.0);
-        const int count =
-            penumbra_px < 0.5 ? 0 : std::min(static_cast<int>(std::ceil(penumbra_px / edge_px)), max_edges);
-        edges_.clear();
-        for (int i = 0; i < count; ++i) {
+        const double most = std::clamp(std::ceil(dark / min_step) - 1.0, 1.0, static_cast<double>(max_edges));
+        const int count = penumbra_px < 0.5 ? 0 : static_cast<int>(std::min(std::ceil(penumbra_px / edge_px), most));
+        edges_ = {{0.0, static_cast<float>(1.0 - dark)}};
+        for (int i = count - 1; i >= 0; --i) {
             edges_.push_back(
                 {penumbra_m * (1.0 - (i + 0.5) / count), static_cast<float>(1.0 - dark * (i + 1) / (count + 1))});
         }
-        edges_.push_back({0.0, static_cast<float>(1.0 - dark)});
     }
 
     /// The length of the light's path from the middle of the box to the ground; negative if it reaches no ground, or
@@ -572,22 +647,75 @@ private:
         return -1.0;
     }
 
-    /// Collects the placed polygons that face the sun, once for each of edges_.
-    void collect_faces(const AircraftModel& model, std::span<const glm::dmat4> parts) {
+    /// Collects the faces of all edges_. `middle_m`: of the aircraft.
+    void collect_faces(const AircraftModel& model, std::span<const glm::dmat4> parts, const glm::dvec3& middle_m) {
         faces_.clear();
         face_corners_.clear();
-        face_extents_.begin(to_sun_);
+        face_extents_.begin(to_sun_, middle_m);
+        sunlit_.clear();
+        sunlit_corners_.clear();
         const auto count = static_cast<std::uint32_t>(model.polygons.polygons.size());
-        for (std::size_t edge = 0; edge < edges_.size(); ++edge) {
-            for (std::uint32_t polygon = 0; polygon < count; ++polygon) {
-                place_polygon(model, parts, polygon, part_);
-                if (glm::dot(plane_of(part_).normal, to_sun_) <= 0.0) { continue; }
-                if (edges_[edge].grown_m > 0.0) { grow(part_, edges_[edge].grown_m, to_sun_, scratch_); }
-                faces_.push_back({face_corners_.size(), part_.size(), edge});
-                face_extents_.add(part_);
-                face_corners_.insert(face_corners_.end(), part_.begin(), part_.end());
+        is_sunlit_.assign(count, false);
+        for (std::uint32_t polygon = 0; polygon < count; ++polygon) {
+            place_polygon(model, parts, polygon, part_);
+            if (glm::dot(plane_of(part_).normal, to_sun_) <= 0.0) { continue; }
+            is_sunlit_[polygon] = true;
+            sunlit_.push_back({sunlit_corners_.size(), part_.size(), polygon});
+            sunlit_corners_.insert(sunlit_corners_.end(), part_.begin(), part_.end());
+        }
+        const double outermost_m = edges_.back().grown_m;
+        add_faces(0, 1, hidden_share * outermost_m);
+        std::erase_if(sunlit_, [&](const SunlitPolygon& one) {
+            const auto first = model.neighbours.begin() + model.first_vertices[one.polygon];
+            const auto end = model.neighbours.begin() + model.first_vertices[one.polygon + 1];
+            return std::all_of(
+                first, end, [&](std::uint32_t other) { return other != models::none && is_sunlit_[other]; });
+        });
+        add_faces(1, edges_.size(), cell_share * outermost_m);
+    }
+
+    /// Adds the polygons of sunlit_ to the faces of edges_[begin] to edges_[end - 1], grown: those in one cell across
+    /// the light as one octagon, those longer than a cell each by itself.
+    void add_faces(std::size_t begin, std::size_t end, double cell_m) {
+        long_.clear();
+        in_cells_.clear();
+        const auto corners_of = [&](const SunlitPolygon& one) {
+            return std::span(std::as_const(sunlit_corners_)).subspan(one.first, one.count);
+        };
+        for (const SunlitPolygon& one : sunlit_) {
+            if (const auto cell = face_extents_.cell_of(corners_of(one), cell_m)) {
+                in_cells_.emplace_back(*cell, one);
+            } else {
+                long_.push_back(one);
             }
         }
+        std::ranges::stable_sort(in_cells_, {}, &CellPolygon::first);
+        octagons_.clear();
+        for (std::size_t i = 0; i < in_cells_.size(); ++i) {
+            const auto& [cell, one] = in_cells_[i];
+            if (i == 0 || in_cells_[i - 1].first != cell) { octagons_.emplace_back(); }
+            face_extents_.extend(octagons_.back(), corners_of(one));
+        }
+        for (std::size_t edge = begin; edge < end; ++edge) {
+            const double grown_m = edges_[edge].grown_m;
+            for (const SunlitPolygon& one : long_) {
+                const auto corners = corners_of(one);
+                part_.assign(corners.begin(), corners.end());
+                if (grown_m > 0.0) { grow(part_, grown_m, to_sun_, scratch_); }
+                add_face(edge);
+            }
+            for (const LightExtents::Octagon& octagon : octagons_) {
+                face_extents_.corners_of(octagon, grown_m, part_);
+                add_face(edge);
+            }
+        }
+    }
+
+    /// Adds part_ as a face.
+    void add_face(std::size_t edge) {
+        faces_.push_back({face_corners_.size(), part_.size(), edge});
+        face_extents_.add(part_);
+        face_corners_.insert(face_corners_.end(), part_.begin(), part_.end());
     }
 
     void cast_on(std::uint32_t triangle) {
@@ -702,6 +830,12 @@ private:
     std::vector<std::uint32_t> decals_by_triangle_; ///< Indices into PieceList::decals.
     std::vector<std::uint32_t> candidates_;
     std::vector<Edge> edges_;
+    std::vector<SunlitPolygon> sunlit_;
+    std::vector<ViewVertex> sunlit_corners_;
+    std::vector<bool> is_sunlit_;       ///< one for each polygon of the model
+    std::vector<SunlitPolygon> long_;   ///< longer than a cell
+    std::vector<CellPolygon> in_cells_; ///< the others, by cell
+    std::vector<LightExtents::Octagon> octagons_;
     std::vector<Face> faces_;
     std::vector<ViewVertex> face_corners_;
     LightExtents face_extents_;                    ///< Of faces_.

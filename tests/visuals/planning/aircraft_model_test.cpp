@@ -1,3 +1,4 @@
+#include "models/collapse_sequence.h"
 #include "models/planar/planar_model.h"
 #include "models/polygons/obj_reader.h"
 #include "tests/visuals/planning/small_world.h"
@@ -9,6 +10,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <set>
 
 using namespace octant;
 
@@ -46,6 +48,34 @@ TEST_CASE("what touches a side of a polygon is a corner of it as it is drawn") {
     CHECK(aircraft.buffers.vertices.size() == 6 * 4 + 2 + 3);
     CHECK(aircraft.file_order.index_count == 3 * (2 * 3 + 4 * 2 + 1));
     CHECK(aircraft.first_indices.back() == aircraft.file_order.index_count);
+}
+
+TEST_CASE("each side of a polygon as it is drawn knows the polygon beyond it, where there is one") {
+    for (const bool is_open : {false, true}) {
+        models::polygons::PolygonModel model = tests::box_model(glm::dvec3(1.0));
+        if (is_open) {
+            model.polygons.pop_back();
+            model.corner_vertices.resize(20);
+        }
+        const auto aircraft = tests::convex_aircraft(model);
+        REQUIRE(aircraft.neighbours.size() == aircraft.first_vertices.back());
+        int without = 0;
+        std::size_t neighbours = 0;
+        for (std::uint32_t polygon = 0; polygon < model.polygons.size(); ++polygon) {
+            std::set<std::uint32_t> others;
+            for (std::uint32_t i = aircraft.first_vertices[polygon]; i < aircraft.first_vertices[polygon + 1]; ++i) {
+                if (aircraft.neighbours[i] == models::none) {
+                    ++without;
+                } else {
+                    others.insert(aircraft.neighbours[i]);
+                }
+            }
+            neighbours += others.size();
+            CHECK(!others.contains(polygon));
+        }
+        CHECK(without == (is_open ? 4 : 0));
+        CHECK(neighbours == (is_open ? 16U : 24U));
+    }
 }
 
 TEST_CASE("no corner of the F-15 as it is drawn lies on a side without one") {

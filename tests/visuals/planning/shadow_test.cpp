@@ -297,3 +297,80 @@ TEST_CASE("the far model casts the shadow where its error cannot be seen there, 
     CHECK(shadow_of(own_half_m, true, 400.0) == shadow_of(far_half_m, false, 400.0));
     CHECK(shadow_of(far_half_m, false, 400.0) != shadow_of(own_half_m, false, 400.0));
 }
+
+namespace {
+
+/// A cube of which each side is cut into this number of squares a row.
+models::polygons::PolygonModel gridded_box(double half_m, int squares) {
+    models::polygons::PolygonModel box = box_model(glm::dvec3(half_m));
+    models::polygons::PolygonModel model = box;
+    model.vertices_m.clear();
+    model.corner_vertices.clear();
+    model.polygons.clear();
+    for (std::size_t side = 0; side < box.polygons.size(); ++side) {
+        const auto corners = box.corners(side);
+        const glm::dvec3& from_m = box.vertices_m[corners[0]];
+        const glm::dvec3 along_m = (box.vertices_m[corners[1]] - from_m) / static_cast<double>(squares);
+        const glm::dvec3 across_m = (box.vertices_m[corners[3]] - from_m) / static_cast<double>(squares);
+        for (int i = 0; i < squares * squares; ++i) {
+            model.polygons.push_back({static_cast<std::uint32_t>(model.corner_vertices.size()), 4, 0, 0});
+            for (const auto& [column, row] : {std::pair(0, 0), {1, 0}, {1, 1}, {0, 1}}) {
+                model.corner_vertices.push_back(static_cast<std::uint32_t>(model.vertices_m.size()));
+                model.vertices_m.push_back(
+                    from_m + along_m * double(i % squares + column) + across_m * double(i / squares + row));
+            }
+        }
+    }
+    return model;
+}
+
+} // namespace
+
+TEST_CASE("a penumbra adds few pieces to a shadow and is the same for any number of polygons") {
+    constexpr int squares = 48;
+    const Camera near = camera_looking_at({70.0, 50.0, 60.0}, {50.0, 70.0, 20.0});
+    const Camera far = camera_looking_at({50.0, 50.0, 2000.0}, {50.0, 70.0, 0.0}); // no penumbra is seen from here
+    std::array<std::unique_ptr<Planner>, 2> planners;
+    std::array<Scene, 2> scenes;
+    Settings settings = plain_settings();
+    settings.surface.shadows = true;
+    settings.air.sun_elevation_deg = 60.0;
+    const glm::dvec3 to_sun(direction_to_sun(settings.air));
+    for (const std::size_t planner : {0U, 1U}) {
+        Scene& scene = scenes.at(planner);
+        scene.ground = cell_ground(4, 400.0, [](double, double) { return 0.0; });
+        scene.add_model(convex_aircraft(gridded_box(8.0, planner == 0 ? 1 : squares)));
+        scene.aircraft = {0};
+        planners.at(planner) = std::make_unique<Planner>(scene, settings);
+    }
+    const glm::dvec3 middle_m(50.0, 70.0, 0.0);
+    const auto plan_of = [&](std::size_t planner, double path_m, const Camera& camera) -> PlannedFrame {
+        const std::vector states{state_at(middle_m + path_m * to_sun)};
+        return planners.at(planner)->plan({camera, states});
+    };
+    const double hard = plan_of(1, 30.0, far).counts.shadow_triangles;
+    CHECK(hard >= 2 * 2 * squares * squares); // top and at least a side
+    // At first the outline's squares alone are added, each by itself; then they, and in the end all squares, are
+    // smaller than a cell.
+    for (const auto& [path_m, most_in_hard] : {std::pair(60.0, 1.5), {400.0, 1.5}, {2000.0, 0.5}}) {
+        CAPTURE(path_m);
+        const PlannedFrame soft = plan_of(1, path_m, near);
+        CHECK(soft.counts.shadow_triangles > 20);
+        CHECK(soft.counts.shadow_triangles <= most_in_hard * hard);
+        const PlannedFrame simple = plan_of(0, path_m, near);
+        int difference = 0;
+        int penumbra = 0;
+        for (int place = -60; place <= 60; ++place) {
+            const glm::dvec3 at_m = middle_m + glm::dvec3(0.41 * place + 0.03, 0.37, 0.0) - near.eye_m;
+            const auto red_of = [&](const FramePlan& plan) {
+                const std::uint32_t colour = painted_at(plan, at_m);
+                return colour == 0 ? 0x80 : static_cast<int>(colour & 255U);
+            };
+            const int red = red_of(soft.plan);
+            difference += std::abs(red - red_of(simple.plan));
+            penumbra += red > static_cast<int>(darkest & 255U) ? 1 : 0;
+        }
+        CHECK(penumbra > 0);
+        CHECK(difference <= 121); // one grey level a place
+    }
+}
