@@ -183,9 +183,9 @@ struct Reliefs {
         constexpr int size = DetailPattern::side_texels;
         add(gradient_noise(4, size), 0.13F, open);
         add(gradient_noise(8, size), 0.46F, open);
-        add(gradient_noise(16, size), 0.5F, open);
-        add(gradient_noise(32, size), 1.0F, open);
-        add(domes(9, size), 0.8F, open);
+        add(gradient_noise(16, size), 0.8F, open);
+        add(gradient_noise(32, size), 0.5F, open);
+        add(domes(9, size), 0.4F, open);
         add(domes(5, size), 1.0F, crowns);
         add(domes(3, size), 0.9F, crowns);
         add(gradient_noise(32, size), 0.8F, crowns);
