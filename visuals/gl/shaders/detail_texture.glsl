@@ -7,6 +7,7 @@ layout(binding = 3) uniform sampler2D contrast;
 
 const float texels_per_m = 16.0;
 const float texels_a_side = 64.0;
+const float max_slant2 = 300.0;
 const int first_open_mixture = 64; // those before it show crowns
 const mat3 pattern_from_world = mat3( // its columns are what the world's axes are in the pattern's
     0.649782467, -0.739147362, 0.177324346,
@@ -40,5 +41,6 @@ vec3 detail_at(vec3 place_m, vec3 across, vec3 down, float covers) {
     vec2 sought = (vec2(fine, coarse) * (255.0 / 128.0) - 1.0) *
                   (1.0 - vec2(through * through, (1.0 - through) * (1.0 - through)));
     int pattern_step = int(clamp((sought.x + sought.y) * 32.0 + 32.0, 0.0, 63.0));
-    return texelFetch(contrast, ivec2(pattern_step, mixture), 0).rgb * (1023.0 / 512.0) - 1.0;
+    float left = min(max_slant2 * dot(across, across) / dot(down, down), 1.0);
+    return left * (texelFetch(contrast, ivec2(pattern_step, mixture), 0).rgb * (1023.0 / 512.0) - 1.0);
 }
