@@ -19,6 +19,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <string>
 #include <utility>
@@ -448,10 +449,21 @@ private:
     }
 
     void find_discs(const PolygonModel& model, bool has_meshes) {
+        std::vector<Effect> discs;
         for (std::uint32_t number = 0; number < model.pivots.size(); ++number) {
             if (std::abs(model.pivots[number].turns_per_s) < disc_turns_per_s) { continue; }
             const std::optional<Effect> disc = disc_of(model, number);
-            if (disc && (disc->has_plane || has_meshes)) { effects_.push_back(*disc); }
+            if (disc && (disc->has_plane || has_meshes)) { discs.push_back(*disc); }
+        }
+        // Blades and spinner may be parts of their own: one disc for all that turns in one place, the largest.
+        std::ranges::stable_sort(discs, std::ranges::greater(), &Effect::radius_m);
+        for (const Effect& disc : discs) {
+            constexpr double one_place = 0.15; // of the larger radius
+            const bool is_within = std::ranges::any_of(effects_, [&](const Effect& larger) {
+                return glm::distance(larger.position_m, disc.position_m) < one_place * larger.radius_m &&
+                       std::abs(glm::dot(larger.outward, disc.outward)) > 0.99;
+            });
+            if (!is_within) { effects_.push_back(disc); }
         }
     }
 
