@@ -11,6 +11,7 @@
 #include "visuals/planning/sky.h"
 
 #include <glm/common.hpp>
+#include <glm/exponential.hpp>
 #include <glm/geometric.hpp>
 #include <glm/mat4x4.hpp>
 #include <glm/vec2.hpp>
@@ -397,7 +398,7 @@ public:
         }
     }
 
-    /// The bounds of plumes and vapour at any strength, body axes. Discs lie in those of their blades.
+    /// The bounds of all effects at any strength, body axes.
     const std::optional<AxisAlignedBox>& bounds() const { return extent_; }
 
     /// Adds the effects of a place in the painting order to a frame. Rotors in `articulated_parts` have no disc.
@@ -463,7 +464,7 @@ private:
                 return glm::distance(larger.position_m, disc.position_m) < one_place * larger.radius_m &&
                        std::abs(glm::dot(larger.outward, disc.outward)) > 0.99;
             });
-            if (!is_within) { effects_.push_back(disc); }
+            if (!is_within) { add_effect(disc, glm::dvec3(0.0)); }
         }
     }
 
@@ -541,7 +542,9 @@ private:
     }
 
     void add_effect(const Effect& effect, const glm::dvec3& reach_m) {
-        const glm::dvec3 half_m(effect.radius_m);
+        const glm::dvec3 across =
+            effect.kind == Kind::Disc ? glm::max(1.0 - effect.outward * effect.outward, 0.0) : glm::dvec3(1.0);
+        const glm::dvec3 half_m = effect.radius_m * glm::sqrt(across);
         const glm::dvec3 min_m = glm::min(effect.position_m, effect.position_m + reach_m) - half_m;
         const glm::dvec3 max_m = glm::max(effect.position_m, effect.position_m + reach_m) + half_m;
         const AxisAlignedBox before = extent_.value_or(AxisAlignedBox{min_m, max_m});

@@ -126,7 +126,10 @@ TEST_CASE("fast rotors have discs without a setting; slow and held ones and the 
     PolygonModel model = helicopter(-1.6);
     const SurfaceSettings usual;
     CHECK(painted(model, above_m, 1.0, {}, usual).after > 0);
-    CHECK_FALSE(painted(model, above_m, 1.0, {}, usual).bounds); // that of the blades is enough
+    const std::optional<AxisAlignedBox> bounds = painted(model, above_m, 1.0, {}, usual).bounds;
+    REQUIRE(bounds);
+    CHECK(glm::distance(bounds->min_m, glm::dvec3(-4.0, -4.0, -1.66)) < 0.01); // flat, just above the blades
+    CHECK(glm::distance(bounds->max_m, glm::dvec3(4.0, 4.0, -1.66)) < 0.01);
     const std::vector<ArticulatedPart> of_another{{1, 0}};
     const std::vector<ArticulatedPart> held{{0, 0}};
     CHECK(painted(model, above_m, 1.0, of_another).after > 0);
