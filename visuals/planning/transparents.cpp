@@ -11,6 +11,7 @@
 #include "visuals/planning/sky.h"
 
 #include <glm/common.hpp>
+#include <glm/exponential.hpp>
 #include <glm/geometric.hpp>
 #include <glm/mat4x4.hpp>
 #include <glm/vec2.hpp>
@@ -19,6 +20,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <string>
 #include <utility>
@@ -396,7 +398,7 @@ public:
         }
     }
 
-    /// The bounds of plumes and vapour at any strength, body axes. Discs lie in those of their blades.
+    /// The bounds of all effects at any strength, body axes.
     const std::optional<AxisAlignedBox>& bounds() const { return extent_; }
 
     /// Adds the effects of a place in the painting order to a frame. Rotors in `articulated_parts` have no disc.
@@ -448,10 +450,21 @@ private:
     }
 
     void find_discs(const PolygonModel& model, bool has_meshes) {
+        std::vector<Effect> discs;
         for (std::uint32_t number = 0; number < model.pivots.size(); ++number) {
             if (std::abs(model.pivots[number].turns_per_s) < disc_turns_per_s) { continue; }
             const std::optional<Effect> disc = disc_of(model, number);
-            if (disc && (disc->has_plane || has_meshes)) { effects_.push_back(*disc); }
+            if (disc && (disc->has_plane || has_meshes)) { discs.push_back(*disc); }
+        }
+        // Blades and spinner may be parts of their own: one disc for all that turns in one place, the largest.
+        std::ranges::stable_sort(discs, std::ranges::greater(), &Effect::radius_m);
+        for (const Effect& disc : discs) {
+            constexpr double one_place = 0.15; // of the larger radius
+            const bool is_within = std::ranges::any_of(effects_, [&](const Effect& larger) {
+                return glm::distance(larger.position_m, disc.position_m) < one_place * larger.radius_m &&
+                       std::abs(glm::dot(larger.outward, disc.outward)) > 0.99;
+            });
+            if (!is_within) { add_effect(disc, glm::dvec3(0.0)); }
         }
     }
 
@@ -529,7 +542,9 @@ private:
     }
 
     void add_effect(const Effect& effect, const glm::dvec3& reach_m) {
-        const glm::dvec3 half_m(effect.radius_m);
+        const glm::dvec3 across =
+            effect.kind == Kind::Disc ? glm::max(1.0 - effect.outward * effect.outward, 0.0) : glm::dvec3(1.0);
+        const glm::dvec3 half_m = effect.radius_m * glm::sqrt(across);
         const glm::dvec3 min_m = glm::min(effect.position_m, effect.position_m + reach_m) - half_m;
         const glm::dvec3 max_m = glm::max(effect.position_m, effect.position_m + reach_m) + half_m;
         const AxisAlignedBox before = extent_.value_or(AxisAlignedBox{min_m, max_m});
