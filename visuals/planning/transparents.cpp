@@ -23,6 +23,7 @@
 #include <functional>
 #include <limits>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -250,8 +251,8 @@ struct DiscRing {
 };
 
 /// Blades cover a larger share near the hub; tips are painted in light colours.
-constexpr std::array disc_rings{DiscRing{0.06, 0.38, 0.2F}, DiscRing{0.25, 0.28, 0.28F}, DiscRing{0.6, 0.21, 0.48F},
-    DiscRing{0.91, 0.17, 0.54F}, DiscRing{0.96, 0.28, 0.9F}, DiscRing{1.0, 0.0, 0.9F}};
+constexpr std::array disc_rings{DiscRing{0.01, 0.38, 0.2F}, DiscRing{0.25, 0.28, 0.28F}, DiscRing{0.6, 0.21, 0.48F},
+    DiscRing{0.91, 0.17, 0.54F}, DiscRing{0.96, 0.22, 0.7F}, DiscRing{1.0, 0.0, 0.7F}};
 
 /// The segments of a circle whose chords are at most a pixel from it; `radius_px` is above 0.
 int segments_of(double radius_px) {
@@ -285,7 +286,8 @@ void draw_disc(
                 shape.add(centre_m + ring.radius * radius_m * (std::cos(turn) * right + std::sin(turn) * up), 0U);
             const glm::dvec3 way(shape.vertices[vertex].position_m);
             const double cosine = std::max(glm::dot(way, to_glare) / std::max(glm::length(way), 1e-6), 0.0);
-            const auto glare = static_cast<float>(0.4 * std::pow(cosine, 8.0));
+            const double squared = cosine * cosine;
+            const auto glare = static_cast<float>(0.4 * squared * squared * squared * squared);
             const glm::vec3 rgb = glm::min(ring.grey * whole + glare * light.sunlight, glm::vec3(1.0F));
             shape.vertices[vertex].colour = clear_colour(rgb, share * ring.alpha);
         }
@@ -413,6 +415,10 @@ public:
         vertices_.clear();
         indices_.clear();
         Shape shape{body_to_eye_world, vertices_, indices_};
+        // From far to near, as discs of two rotors may overlap.
+        std::ranges::sort(effects_, std::ranges::greater(), [&](const Effect& effect) {
+            return std::tuple(glm::distance(effect.position_m, eye_m), effect.kind, effect.pivot, effect.outward.y);
+        });
         for (const Effect& effect : effects_) {
             if (place_of(effect, eye_m) != place) { continue; }
             if (effect.kind == Kind::Disc) {

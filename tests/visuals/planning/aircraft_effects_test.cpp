@@ -53,6 +53,7 @@ struct Painted {
     std::size_t after = 0;
     std::size_t unordered = 0;
     std::optional<AxisAlignedBox> bounds;
+    std::vector<float> depths; ///< of the triangles in their order, as OverlayVertex::depth
 };
 
 Painted painted(const PolygonModel& model, const glm::dvec3& eye_m, double load_factor = 1.0,
@@ -79,7 +80,11 @@ Painted painted(const PolygonModel& model, const glm::dvec3& eye_m, double load_
     Fleet fleet(scene, settings);
     fleet.place(view, request, transparents.effect_bounds());
     transparents.make(view, request, fleet, plan);
-    Painted painted{0, 0, 0, transparents.effect_bounds().front()};
+    Painted painted{0, 0, 0, transparents.effect_bounds().front(), {}};
+    const OverlayDraw draw = transparents.draw();
+    for (std::size_t i = 0; i < draw.indices.size(); i += 3) {
+        painted.depths.push_back(draw.vertices[draw.indices[i]].depth);
+    }
     for (const Transparent& one : transparents.list()) {
         using enum Transparent::Place;
         (one.place == InFront     ? painted.after
@@ -153,6 +158,18 @@ TEST_CASE("blades and spinner that turn in one place have one disc, two rotors o
     CHECK(painted(model, above_m).after == one);
     add_rotor({9.0, 0.0, -1.6}, {0.1, 4.0, 0.02});
     CHECK(painted(model, above_m).after > one + one / 2);
+}
+
+TEST_CASE("of two rotors the far one's disc is painted first, whichever comes first in the model") {
+    PolygonModel model = helicopter(-1.6);
+    const glm::dvec3 at_m(9.0, 0.0, -1.6);
+    add_part(model, "fore rotor", at_m, {0.1, 4.0, 0.02});
+    model.pivots.push_back({static_cast<std::uint32_t>(model.parts.size() - 1), at_m, {0.0, 0.0, -1.0}, 8.0});
+    for (const double eye_x_m : {-30.0, 40.0}) {
+        const std::vector<float> depths = painted(model, {eye_x_m, 3.0, -15.0}).depths;
+        REQUIRE(depths.size() > 100);
+        CHECK(depths.front() < depths.back());
+    }
 }
 
 TEST_CASE("a disc has finer circles near the eye and is gone far away") {
