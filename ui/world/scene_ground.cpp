@@ -135,7 +135,7 @@ SceneGround with_texture_and_notes(std::shared_ptr<const landscape::Ground> grou
         !terrain_sources(settings.path).files.empty()) {
         loaded.notes.push_back(
             fmt::format("{}: its place on the earth is not known, so it is shown as moist, temperate land; "
-                        "--palette arid shows a desert",
+                        "--ground-look palette=arid shows a desert",
                 source.area.name));
     }
     add_texture(settings, device, loaded);

@@ -92,6 +92,7 @@ Object make_texture(const Functions& gl, const scene::DetailPattern& pattern) {
     for (int level = 0; level < DetailPattern::levels; ++level) {
         const GLsizei side = DetailPattern::side_texels >> level;
         std::vector<std::uint8_t> texels;
+        texels.reserve(static_cast<std::size_t>(2 * side * side * side));
         for (int z = 0; z < side; ++z) {
             for (int y = 0; y < side; ++y) {
                 for (int x = 0; x < side; ++x) {
@@ -169,9 +170,12 @@ void TrianglePainter::use_mesh_display(const scene::FramePlan& plan) {
 void TrianglePainter::use_detail_texture(const scene::FramePlan& plan) {
     if (!plan.detail_texture) { return; }
     if (plan.detail_texture->contrast != uploaded_contrast_) {
+        const scene::DetailPattern& pattern = plan.detail_texture->contrast->pattern();
+        if (!uploaded_contrast_ || &uploaded_contrast_->pattern() != &pattern) {
+            detail_texture_ = make_texture(gl_, pattern);
+        }
         uploaded_contrast_ = plan.detail_texture->contrast;
         contrast_ = make_texture(gl_, *uploaded_contrast_);
-        detail_texture_ = make_texture(gl_, uploaded_contrast_->pattern());
     }
     gl_.bind_texture_unit(detail_unit, detail_texture_->name());
     gl_.bind_texture_unit(contrast_unit, contrast_->name());

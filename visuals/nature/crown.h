@@ -35,7 +35,7 @@ private:
     void add_level(std::size_t level);
 };
 
-/// The one of which all crowns are made.
+/// The one of which all broad-leaved crowns and bushes are made.
 const Icosphere& icosphere();
 
 enum class PlantKind : std::uint8_t { Broadleaf, Conifer, Shrub };

@@ -33,13 +33,13 @@ constexpr double min_cell_m = 15.0; ///< denser ground bears something in some c
 constexpr float min_radius_m = 1.2F;
 constexpr float max_height_m = 17.0F;        ///< of all things
 constexpr float max_fineness = 1.2F;         ///< of plants where few trees are near
-constexpr float min_fineness = 0.7F;         ///< and where they stand everywhere
-constexpr float max_crowding = 2.4F;         ///< of trees in view, over those all around
-constexpr float spare_share = 0.8F;          ///< of the triangles, after which plants have half of their fineness
+constexpr float min_fineness = 0.6F;         ///< and where they stand everywhere
+constexpr float max_crowding = 3.0F;         ///< of trees in view, over those all around
+constexpr float spare_share = 0.6F;          ///< of the triangles, after which plants have half of their fineness
 constexpr double crowd_reach_m = 250.0;      ///< from the eye
 constexpr float house_circle_m = 4.0F;       ///< no house where less fits
 constexpr float first_growth_ratio = 0.34F;  ///< of the reach: all things have grown by then
-constexpr glm::vec2 shadow_px(45.0F, 80.0F); ///< things look so high where their shadows begin and are whole
+constexpr glm::vec2 shadow_px(54.0F, 90.0F); ///< things look so high where their shadows begin and are whole
 constexpr glm::vec2 rim_px(90.0F, 180.0F);   ///< and so high where a soft rim begins and is whole
 constexpr float conifer_taper = 0.5F;
 constexpr float layer_part = 0.125F;            ///< of a layer: from one shadow to the next above it
@@ -146,7 +146,7 @@ public:
         for_each_quarter(
             box_of(triangle_m), view_reach_m_, [&](std::span<const SceneryItem> items, const glm::vec2& centre_m) {
                 const std::optional<GroundAnchor> ground = anchor_at(triangle, triangle_m, centre_m);
-                if (ground) { place_quarter(items, *ground, 0.0F); }
+                if (ground) { place_quarter(items, *ground, 0.0F, 0.0F); }
             });
         std::ranges::sort(placed_items_,
             [&](const PlacedItem& one, const PlacedItem& other) { return one.power_m2 < other.power_m2; });
@@ -386,7 +386,9 @@ private:
         for_each_quarter(
             box, static_cast<double>(reach_m), [&](std::span<const SceneryItem> items, const glm::vec2& centre_m) {
                 const float ground_m = triangle_m[0].z + glm::dot(slope, centre_m - glm::vec2(triangle_m[0]));
-                place_quarter(items, {glm::vec3(centre_m, ground_m), slope}, shadow_margin_m);
+                const glm::vec3 at_m(centre_m, ground_m);
+                const float min_height_m = shadow_px.x / view_.focal_px * (glm::length(at_m) - 2.0F * max_radius_m_);
+                place_quarter(items, {at_m, slope}, min_height_m, shadow_margin_m);
             });
         for (const PlacedItem& one : placed_items_) {
             const float strength = std::min((one.height_px - shadow_px.x) / (shadow_px.y - shadow_px.x), 1.0F);
@@ -399,8 +401,10 @@ private:
         std::ranges::sort(casters_, std::ranges::greater(), &ShadowCaster::strength);
     }
 
-    /// Places what stands in a quarter, in view or no farther than a margin beyond. `centre`: of the quarter.
-    void place_quarter(std::span<const SceneryItem> items, const GroundAnchor& centre, float margin_m) {
+    /// Places what stands in a quarter and may be so high, in view or no farther than a margin beyond. `centre`: of the
+    /// quarter.
+    void place_quarter(
+        std::span<const SceneryItem> items, const GroundAnchor& centre, float min_height_m, float margin_m) {
         const float slot_m = slots_.radius * max_radius_m_;
         for (std::size_t slot = 0; slot < items.size(); ++slot) {
             const SceneryItem& item = items[slot];
@@ -413,6 +417,7 @@ private:
                 const Species& species = species_of(item);
                 one.radius_m = std::min(size_of(item.random_bits) * species.radius_m, slot_m);
                 height_m = std::min(size_of(item.random_bits) * species.height_m, species.slenderness * one.radius_m);
+                if (height_m < min_height_m) { continue; }
                 const glm::vec2 off_m = max_radius_m_ * slots_.middles[slot] + (slot_m - one.radius_m) * moved(item);
                 one.anchor.at_m += glm::vec3(off_m, centre.height_at_offset_m(off_m));
             }

@@ -11,6 +11,7 @@
 #include "visuals/planning/sky.h"
 
 #include <glm/common.hpp>
+#include <glm/exponential.hpp>
 #include <glm/geometric.hpp>
 #include <glm/mat4x4.hpp>
 #include <glm/vec2.hpp>
@@ -19,8 +20,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -248,8 +251,8 @@ struct DiscRing {
 };
 
 /// Blades cover a larger share near the hub; tips are painted in light colours.
-constexpr std::array disc_rings{DiscRing{0.06, 0.38, 0.2F}, DiscRing{0.25, 0.28, 0.28F}, DiscRing{0.6, 0.21, 0.48F},
-    DiscRing{0.91, 0.17, 0.54F}, DiscRing{0.96, 0.28, 0.9F}, DiscRing{1.0, 0.0, 0.9F}};
+constexpr std::array disc_rings{DiscRing{0.01, 0.38, 0.2F}, DiscRing{0.25, 0.28, 0.28F}, DiscRing{0.6, 0.21, 0.48F},
+    DiscRing{0.91, 0.17, 0.54F}, DiscRing{0.96, 0.22, 0.7F}, DiscRing{1.0, 0.0, 0.7F}};
 
 /// The segments of a circle whose chords are at most a pixel from it; `radius_px` is above 0.
 int segments_of(double radius_px) {
@@ -283,7 +286,8 @@ void draw_disc(
                 shape.add(centre_m + ring.radius * radius_m * (std::cos(turn) * right + std::sin(turn) * up), 0U);
             const glm::dvec3 way(shape.vertices[vertex].position_m);
             const double cosine = std::max(glm::dot(way, to_glare) / std::max(glm::length(way), 1e-6), 0.0);
-            const auto glare = static_cast<float>(0.4 * std::pow(cosine, 8.0));
+            const double squared = cosine * cosine;
+            const auto glare = static_cast<float>(0.4 * squared * squared * squared * squared);
             const glm::vec3 rgb = glm::min(ring.grey * whole + glare * light.sunlight, glm::vec3(1.0F));
             shape.vertices[vertex].colour = clear_colour(rgb, share * ring.alpha);
         }
@@ -396,7 +400,7 @@ public:
         }
     }
 
-    /// The bounds of plumes and vapour at any strength, body axes. Discs lie in those of their blades.
+    /// The bounds of all effects at any strength, body axes.
     const std::optional<AxisAlignedBox>& bounds() const { return extent_; }
 
     /// Adds the effects of a place in the painting order to a frame. Rotors in `articulated_parts` have no disc.
@@ -411,6 +415,10 @@ public:
         vertices_.clear();
         indices_.clear();
         Shape shape{body_to_eye_world, vertices_, indices_};
+        // From far to near, as discs of two rotors may overlap.
+        std::ranges::sort(effects_, std::ranges::greater(), [&](const Effect& effect) {
+            return std::tuple(glm::distance(effect.position_m, eye_m), effect.kind, effect.pivot, effect.outward.y);
+        });
         for (const Effect& effect : effects_) {
             if (place_of(effect, eye_m) != place) { continue; }
             if (effect.kind == Kind::Disc) {
@@ -448,10 +456,21 @@ private:
     }
 
     void find_discs(const PolygonModel& model, bool has_meshes) {
+        std::vector<Effect> discs;
         for (std::uint32_t number = 0; number < model.pivots.size(); ++number) {
             if (std::abs(model.pivots[number].turns_per_s) < disc_turns_per_s) { continue; }
             const std::optional<Effect> disc = disc_of(model, number);
-            if (disc && (disc->has_plane || has_meshes)) { effects_.push_back(*disc); }
+            if (disc && (disc->has_plane || has_meshes)) { discs.push_back(*disc); }
+        }
+        // Blades and spinner may be parts of their own: one disc for all that turns in one place, the largest.
+        std::ranges::stable_sort(discs, std::ranges::greater(), &Effect::radius_m);
+        for (const Effect& disc : discs) {
+            constexpr double one_place = 0.15; // of the larger radius
+            const bool is_within = std::ranges::any_of(effects_, [&](const Effect& larger) {
+                return glm::distance(larger.position_m, disc.position_m) < one_place * larger.radius_m &&
+                       std::abs(glm::dot(larger.outward, disc.outward)) > 0.99;
+            });
+            if (!is_within) { add_effect(disc, glm::dvec3(0.0)); }
         }
     }
 
@@ -529,7 +548,9 @@ private:
     }
 
     void add_effect(const Effect& effect, const glm::dvec3& reach_m) {
-        const glm::dvec3 half_m(effect.radius_m);
+        const glm::dvec3 across =
+            effect.kind == Kind::Disc ? glm::max(1.0 - effect.outward * effect.outward, 0.0) : glm::dvec3(1.0);
+        const glm::dvec3 half_m = effect.radius_m * glm::sqrt(across);
         const glm::dvec3 min_m = glm::min(effect.position_m, effect.position_m + reach_m) - half_m;
         const glm::dvec3 max_m = glm::max(effect.position_m, effect.position_m + reach_m) + half_m;
         const AxisAlignedBox before = extent_.value_or(AxisAlignedBox{min_m, max_m});

@@ -72,7 +72,8 @@ public:
     /// Lights the clouds by another daylight.
     void set_daylight(const nature::Daylight& day);
 
-    /// The bounds of plumes and vapour of each of Scene::aircraft at any strength, body axes; nothing for one without.
+    /// The bounds of the effects of each of Scene::aircraft at any strength, body axes; nothing for one without
+    /// effects.
     std::span<const std::optional<AxisAlignedBox>> effect_bounds() const;
 
     /// Makes the list of a frame. `fleet` must be placed for this frame. `plan` gives the matrices, the light and the

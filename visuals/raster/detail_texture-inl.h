@@ -288,7 +288,12 @@ public:
             down[i] = moves(tile_rays.part[i].per_y, near.down);
         }
         // Most features are eight texels wide and more: half a level finer than usual will do.
-        const auto widest = hn::Max(square(across), hn::Mul(square(down), pair_floats(0.5F)));
+        const auto width2 = square(across);
+        const auto length2 = square(down);
+        const auto widest = hn::Max(width2, hn::Mul(length2, pair_floats(0.5F)));
+        constexpr float all = 32767.0F;
+        const auto least = hn::Mul(width2, pair_floats(all * scene::DetailPattern::max_slant2));
+        slant_share_ = hn::Min(hn::Div(least, length2), pair_floats(all));
         const auto depth2 = hn::Mul(depth_, depth_);
         choose_level(hn::Mul(hn::Mul(widest, depth2), pair_floats(rays.texels2_per_m2)));
         look_at(rays);
@@ -324,7 +329,7 @@ private:
         const auto sixteenth = hn::Mul(haze, pair_floats(1.0F / 16.0F));
         auto share = hn::Max(hn::Sub(pair_floats(1.0F), sixteenth), hn::Zero(PixelPairs()));
         for (int i = 0; i < 4; ++i) { share = hn::Mul(share, share); }
-        return hn::BitCast(PixelPairBits(), hn::ConvertTo(PixelPairInts(), hn::Mul(share, pair_floats(32767.0F))));
+        return hn::BitCast(PixelPairBits(), hn::ConvertTo(PixelPairInts(), hn::Mul(share, slant_share_)));
     }
 
     /// By half the logarithm of the squared width of what is seen, in texels, straight between powers of two.
@@ -363,8 +368,9 @@ private:
 
     hn::Mask<PixelPairs> is_ground_;
     hn::Vec<PixelPairs> depth_;
-    PairRays at_;                  ///< metres from the eye, along the pattern's axes
-    hn::Vec<PixelPairBits> level_; ///< as DetailPositions, but for its flag
+    PairRays at_;                     ///< metres from the eye, along the pattern's axes
+    hn::Vec<PixelPairBits> level_;    ///< as DetailPositions, but for its flag
+    hn::Vec<PixelPairs> slant_share_; ///< what is left of the pattern on ground seen at a very low angle, 2^-15
     DetailPositions::Place fine_;
 };
 

@@ -6,6 +6,7 @@
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
 
 #include <algorithm>
 #include <array>
@@ -92,21 +93,38 @@ Field gradient_noise(int cell_texels, int size) {
     for (std::uint32_t point = 0; point < points; ++point) {
         lattice.push_back(directions[hashed(point, cell_texels) >> 27U]);
     }
+    const auto direction = [&](const glm::ivec3& point) {
+        const glm::ivec3 in_cube = point % cells;
+        return lattice[static_cast<std::size_t>((in_cube.z * cells + in_cube.y) * cells + in_cube.x)];
+    };
     const float by_cell = 1.0F / static_cast<float>(cell_texels);
+    const auto part_at = [&](int at) { return (static_cast<float>(at % cell_texels) + 0.5F) * by_cell; };
     Field field(size);
-    fill(field, [&](const glm::ivec3& at) {
-        const glm::vec3 part = (glm::vec3(at % cell_texels) + 0.5F) * by_cell;
-        const glm::vec3 away(eased(part.x), eased(part.y), eased(part.z));
-        float sum = 0.0F;
-        for (int corner = 0; corner < 8; ++corner) {
-            const glm::ivec3 far(corner & 1, corner >> 1 & 1, corner >> 2);
-            const glm::ivec3 cell = (at / cell_texels + far) % cells;
-            const glm::vec3 shares = glm::mix(1.0F - away, away, glm::vec3(far));
-            const auto number = static_cast<std::size_t>((cell.z * cells + cell.y) * cells + cell.x);
-            sum += shares.x * shares.y * shares.z * glm::dot(lattice[number], part - glm::vec3(far));
+    std::size_t texel = 0;
+    for (int row = 0; row < size * size; ++row) {
+        const glm::vec2 part(part_at(row % size), part_at(row / size));
+        const glm::vec2 away(eased(part.x), eased(part.y));
+        for (int cell = 0; cell < cells; ++cell) {
+            // Along a row the noise of a side of a cell is linear.
+            std::array<float, 2> first{};
+            std::array<float, 2> slope{};
+            for (int corner = 0; corner < 8; ++corner) {
+                const glm::ivec3 far(corner & 1, corner >> 1 & 1, corner >> 2);
+                const glm::vec3 to =
+                    direction(glm::ivec3(cell, row % size / cell_texels, row / size / cell_texels) + far);
+                const float share = (far.y == 1 ? away.x : 1.0F - away.x) * (far.z == 1 ? away.y : 1.0F - away.y);
+                const auto side = static_cast<std::size_t>(far.x);
+                const glm::vec2 off = part - glm::vec2(far.y, far.z);
+                first[side] += share * (to.y * off.x + to.z * off.y - to.x * static_cast<float>(far.x));
+                slope[side] += share * to.x;
+            }
+            for (int at = 0; at < cell_texels; ++at) {
+                const float along = part_at(at);
+                field.values[texel++] =
+                    glm::mix(first[0] + slope[0] * along, first[1] + slope[1] * along, eased(along));
+            }
         }
-        return sum;
-    });
+    }
     return field;
 }
 
@@ -114,34 +132,40 @@ Field gradient_noise(int cell_texels, int size) {
 Field domes(int cells, int size) {
     constexpr float height_spread = 0.6F; // a dome is one high at its foot, a cell's width away
     constexpr float place_spread = 1.0F;  // of a cell
-    struct Dome {
-        glm::vec3 place;
-        float height;
-    };
-    std::vector<Dome> lattice;
     const auto part = [](std::uint32_t bits) { return static_cast<float>(bits >> 8U) * (1.0F / 16777216.0F); };
+    const float cells_a_texel = static_cast<float>(cells) / static_cast<float>(size);
+    const auto place_of = [&](int texel) { return (static_cast<float>(texel) + 0.5F) * cells_a_texel; };
+    const auto first_in = [&](int cell) { // texel
+        int texel = cell * size / cells - 1;
+        while (place_of(texel) < static_cast<float>(cell)) { ++texel; }
+        return texel;
+    };
+    Field field(size);
+    std::ranges::fill(field.values, -9.0F);
     const auto points = static_cast<std::uint32_t>(cells * cells * cells);
     for (std::uint32_t i = 0; i < points; ++i) {
+        const auto number = static_cast<int>(i);
+        const glm::ivec3 cell(number % cells, number / cells % cells, number / cells / cells);
         const glm::vec3 spread(
             part(hashed(4 * i, cells)), part(hashed(4 * i + 1, cells)), part(hashed(4 * i + 2, cells)));
-        lattice.push_back({0.5F + place_spread * (spread - 0.5F), height_spread * part(hashed(4 * i + 3, cells))});
-    }
-    const float cells_a_texel = static_cast<float>(cells) / static_cast<float>(size);
-    Field field(size);
-    fill(field, [&](const glm::ivec3& at) {
-        const glm::vec3 place = (glm::vec3(at) + 0.5F) * cells_a_texel;
-        const glm::ivec3 cell(place);
-        float highest = -9.0F;
-        for (int neighbour = 0; neighbour < 27; ++neighbour) {
-            const glm::ivec3 off = glm::ivec3(neighbour % 3, neighbour / 3 % 3, neighbour / 9) - 1;
-            const glm::ivec3 at_cell = (cell + off + cells) % cells;
-            const auto number = static_cast<std::size_t>((at_cell.z * cells + at_cell.y) * cells + at_cell.x);
-            const Dome& dome = lattice[number];
-            const glm::vec3 away = dome.place + glm::vec3(cell + off) - place;
-            highest = std::max(highest, dome.height - glm::dot(away, away));
+        const glm::vec3 middle = glm::vec3(cell) + 0.5F + place_spread * (spread - 0.5F);
+        const float height = height_spread * part(hashed(4 * i + 3, cells));
+        // It is seen in its cell and in those around it.
+        const glm::ivec3 from(first_in(cell.x - 1), first_in(cell.y - 1), first_in(cell.z - 1));
+        const glm::ivec3 end(first_in(cell.x + 2), first_in(cell.y + 2), first_in(cell.z + 2));
+        const auto squared = [](float value) { return value * value; };
+        for (int z = from.z; z < end.z; ++z) {
+            const float at_z = height - squared(place_of(z) - middle.z);
+            for (int y = from.y; y < end.y; ++y) {
+                const float at_y = at_z - squared(place_of(y) - middle.y);
+                float* const row = &field.values[field.index({0, y, z})];
+                for (int x = from.x; x < end.x; ++x) {
+                    float& highest = row[x & (size - 1)];
+                    highest = std::max(highest, at_y - squared(place_of(x) - middle.x));
+                }
+            }
         }
-        return highest;
-    });
+    }
     return field;
 }
 
@@ -159,9 +183,9 @@ struct Reliefs {
         constexpr int size = DetailPattern::side_texels;
         add(gradient_noise(4, size), 0.13F, open);
         add(gradient_noise(8, size), 0.46F, open);
-        add(gradient_noise(16, size), 0.5F, open);
-        add(gradient_noise(32, size), 1.0F, open);
-        add(domes(9, size), 0.8F, open);
+        add(gradient_noise(16, size), 0.8F, open);
+        add(gradient_noise(32, size), 0.5F, open);
+        add(domes(9, size), 0.4F, open);
         add(domes(5, size), 1.0F, crowns);
         add(domes(3, size), 0.9F, crowns);
         add(gradient_noise(32, size), 0.8F, crowns);

@@ -37,6 +37,9 @@ public:
         glm::dvec3(-0.739147362, 0.377951710, 0.557506666), glm::dvec3(0.177324346, -0.689325837, 0.702414384)};
     /// Standard deviation of all levels; the pattern goes from -1 to 1.
     static constexpr double deviation = 0.36;
+    /// Of what a pixel sees of ground, its length over its width, squared, up to which the pattern is seen in full. On
+    /// ground at a lower angle it would be streaks: it fades as this grows.
+    static constexpr float max_slant2 = 300.0F;
     /// Of pictures of 720 lines over 45 degrees.
     static constexpr double nominal_focal_px = 869.0;
 

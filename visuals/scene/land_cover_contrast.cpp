@@ -28,6 +28,8 @@ constexpr double crowns_share =
               LandCoverContrast::mixture_count;
 /// A cover of a smaller share than this appears as its share grows: at once it would have an edge.
 constexpr double least_share = 0.125;
+/// Of the brightness of a cover: shade under crowns is not black.
+constexpr double darkest = 0.3;
 /// Of the difference in hue: means are seldom of the very colours that covers are said to have.
 constexpr double hue_share = 0.45;
 constexpr double min_mean = 1e-3;
@@ -90,7 +92,7 @@ double density_at(double deviations) { return std::exp(-0.5 * deviations * devia
 glm::dvec3 shown_of(const Mixture& mixture, const glm::dvec2& means, double deviations) {
     const auto shown = [&](const LandCover& cover, double mean) {
         const double change = static_cast<double>(cover.mottling) * (deviations - mean);
-        return glm::dvec3(cover.colour) * std::max(1.0 + change, 0.0);
+        return glm::dvec3(cover.colour) * std::max(1.0 + change, darkest);
     };
     return glm::mix(shown(mixture.first, means.x), shown(mixture.second, means.y), mixture.share_of_second(deviations));
 }

@@ -310,7 +310,8 @@ TEST_CASE("a ground is loaded with what is to be said of it, and textured where 
     CHECK(bare.texture == nullptr);
     CHECK_FALSE(bare.info.place);
     REQUIRE(bare.notes.size() == 1);
-    CHECK_THAT(bare.notes[0], Catch::Contains("place on the earth is not known"));
+    CHECK_THAT(bare.notes[0], Catch::Contains("place on the earth is not known, so it is shown as moist, temperate "
+                                              "land; --ground-look palette=arid shows a desert"));
     settings.air.palette = visuals::scene::Palette::Temperate;
     CHECK(ui::world::load_scene_ground(settings, RenderDevice::Cpu).notes.empty());
     settings.air.palette.reset();

@@ -53,6 +53,7 @@ struct Painted {
     std::size_t after = 0;
     std::size_t unordered = 0;
     std::optional<AxisAlignedBox> bounds;
+    std::vector<float> depths; ///< of the triangles in their order, as OverlayVertex::depth
 };
 
 Painted painted(const PolygonModel& model, const glm::dvec3& eye_m, double load_factor = 1.0,
@@ -79,7 +80,11 @@ Painted painted(const PolygonModel& model, const glm::dvec3& eye_m, double load_
     Fleet fleet(scene, settings);
     fleet.place(view, request, transparents.effect_bounds());
     transparents.make(view, request, fleet, plan);
-    Painted painted{0, 0, 0, transparents.effect_bounds().front()};
+    Painted painted{0, 0, 0, transparents.effect_bounds().front(), {}};
+    const OverlayDraw draw = transparents.draw();
+    for (std::size_t i = 0; i < draw.indices.size(); i += 3) {
+        painted.depths.push_back(draw.vertices[draw.indices[i]].depth);
+    }
     for (const Transparent& one : transparents.list()) {
         using enum Transparent::Place;
         (one.place == InFront     ? painted.after
@@ -126,7 +131,10 @@ TEST_CASE("fast rotors have discs without a setting; slow and held ones and the 
     PolygonModel model = helicopter(-1.6);
     const SurfaceSettings usual;
     CHECK(painted(model, above_m, 1.0, {}, usual).after > 0);
-    CHECK_FALSE(painted(model, above_m, 1.0, {}, usual).bounds); // that of the blades is enough
+    const std::optional<AxisAlignedBox> bounds = painted(model, above_m, 1.0, {}, usual).bounds;
+    REQUIRE(bounds);
+    CHECK(glm::distance(bounds->min_m, glm::dvec3(-4.0, -4.0, -1.66)) < 0.01); // flat, just above the blades
+    CHECK(glm::distance(bounds->max_m, glm::dvec3(4.0, 4.0, -1.66)) < 0.01);
     const std::vector<ArticulatedPart> of_another{{1, 0}};
     const std::vector<ArticulatedPart> held{{0, 0}};
     CHECK(painted(model, above_m, 1.0, of_another).after > 0);
@@ -135,6 +143,33 @@ TEST_CASE("fast rotors have discs without a setting; slow and held ones and the 
     model.pivots.front().turns_per_s = 0.0;
     CHECK(painted(model, above_m, 1.0, {}, usual).after == 0);
     CHECK(painted(jet(), {-60.0, 3.0, -5.0}, 1.0, {}, usual).after == 0); // plumes need the setting
+}
+
+TEST_CASE("blades and spinner that turn in one place have one disc, two rotors one each") {
+    const glm::dvec3 above_m(-20.0, 3.0, -15.0);
+    PolygonModel model = helicopter(-1.6);
+    const std::size_t one = painted(model, above_m).after;
+    const auto add_rotor = [&](const glm::dvec3& at_m, const glm::dvec3& half_m) {
+        add_part(model, "rotor " + std::to_string(model.parts.size()), at_m, half_m);
+        model.pivots.push_back({static_cast<std::uint32_t>(model.parts.size() - 1), at_m, {0.0, 0.0, -1.0}, 8.0});
+    };
+    add_rotor({0.0, 0.0, -1.6}, {0.1, 4.0, 0.02}); // a second pair of blades
+    add_rotor({0.0, 0.0, -1.7}, {0.3, 0.3, 0.1});  // the cap of the hub
+    CHECK(painted(model, above_m).after == one);
+    add_rotor({9.0, 0.0, -1.6}, {0.1, 4.0, 0.02});
+    CHECK(painted(model, above_m).after > one + one / 2);
+}
+
+TEST_CASE("of two rotors the far one's disc is painted first, whichever comes first in the model") {
+    PolygonModel model = helicopter(-1.6);
+    const glm::dvec3 at_m(9.0, 0.0, -1.6);
+    add_part(model, "fore rotor", at_m, {0.1, 4.0, 0.02});
+    model.pivots.push_back({static_cast<std::uint32_t>(model.parts.size() - 1), at_m, {0.0, 0.0, -1.0}, 8.0});
+    for (const double eye_x_m : {-30.0, 40.0}) {
+        const std::vector<float> depths = painted(model, {eye_x_m, 3.0, -15.0}).depths;
+        REQUIRE(depths.size() > 100);
+        CHECK(depths.front() < depths.back());
+    }
 }
 
 TEST_CASE("a disc has finer circles near the eye and is gone far away") {

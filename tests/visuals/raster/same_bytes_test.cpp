@@ -132,7 +132,8 @@ scene::ModelBuffers put_textured_aircraft(FlatPlan& plan) {
             vertex.position_m = glm::vec3(middle * depth_m + aside, -depth_m - number(0.0F, reach_m));
             vertex.normal = glm::vec3(number(-1.0F, 1.0F), 0.3F, 0.6F);
             vertex.face_normal = glm::vec3(0.0F);
-            vertex.colour = vertex.face_colour = static_cast<std::uint32_t>(below(dice, 1U << 24)) | 0xff000000U;
+            const std::uint32_t alpha = i % 3 == 0 ? 0x60000000U : 0xff000000U; // one in three mirrors the sky
+            vertex.colour = vertex.face_colour = static_cast<std::uint32_t>(below(dice, 1U << 24)) | alpha;
             vertex.part = i % 2;
             vertex.polygon = i % 64;
             vertex.on_texture = glm::vec2(number(-3.0F, 3.0F), number(-3.0F, 3.0F));
@@ -148,6 +149,7 @@ scene::ModelBuffers put_textured_aircraft(FlatPlan& plan) {
     all.smooth = {0x5a5a1234U, 0xffff0000U};
     for (std::uint32_t i = 0; i < 3; ++i) { all.aircraft.push_back({.first_index = i * 900, .index_count = 900}); }
     all.depth_boxes = {{glm::ivec2(0), bytes_size_px}};
+    all.mirrored_sky = {glm::vec3(0.2F, 0.4F, 0.8F), glm::vec3(0.3F, 0.2F, 0.1F)};
     all.steps.push_back({Content::Aircraft, 0, 1});
     all.steps.push_back({Content::ClearDepth, 0, 1});
     all.steps.push_back({Content::Aircraft, 1, 1, scene::PaintStep::no_clip, scene::DepthUse::Nearest});
@@ -161,6 +163,13 @@ TEST_CASE("textured aircraft have the same bytes on any number of threads and by
     FlatPlan plan(bytes_size_px);
     const scene::ModelBuffers model = put_textured_aircraft(plan);
     put_in_haze(plan);
+    // Over it a slanted transparent triangle by depth.
+    const std::vector<scene::OverlayVertex> corners{
+        {{3.0F, 5.0F}, 0x80ffffffU, 0.3F}, {{120.0F, 9.0F}, 0xc04080ffU, 0.02F}, {{20.0F, 90.0F}, 0x40ff8040U, 0.01F}};
+    const std::vector<std::uint32_t> indices{0, 1, 2};
+    plan.plan().overlay = {corners, indices};
+    plan.plan().steps.push_back(
+        {scene::PaintStep::Content::Transparent, 0, 3, scene::PaintStep::no_clip, scene::DepthUse::Nearest});
     plan.plan().lights_pixels = GENERATE(false, true);
     check_threads(plan.plan(), nullptr, std::span(&model, 1));
     check_sets(plan.plan(), nullptr, std::span(&model, 1));

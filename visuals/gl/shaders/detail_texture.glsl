@@ -7,6 +7,7 @@ layout(binding = 3) uniform sampler2D contrast;
 
 const float texels_per_m = 16.0;
 const float texels_a_side = 64.0;
+const float max_slant2 = 300.0;
 const int first_open_mixture = 64; // those before it show crowns
 const int first_mixed_pattern = 56;
 const mat3 pattern_from_world = mat3( // its columns are what the world's axes are in the pattern's
@@ -45,5 +46,6 @@ vec3 detail_at(vec3 place_m, vec3 across, vec3 down, float covers) {
                        ? open_and_crowns.y * (1.0 - past * past) - open_and_crowns.x * (past * (2.0 - past))
                        : open_and_crowns.x;
     int pattern_step = int(clamp(sought * 32.0 + 32.0, 0.0, 63.0));
-    return texelFetch(contrast, ivec2(pattern_step, mixture), 0).rgb * (1023.0 / 512.0) - 1.0;
+    float left = min(max_slant2 * dot(across, across) / dot(down, down), 1.0);
+    return left * (texelFetch(contrast, ivec2(pattern_step, mixture), 0).rgb * (1023.0 / 512.0) - 1.0);
 }
