@@ -520,10 +520,10 @@ HWY_INLINE hn::Vec<PixelPairBits> sample_detail(
             share_of(coarse, share_of_first(hn::Sub(all, through))));
     };
     auto both = pattern_of(first_rows_of_kinds(ground));
-    static_assert(scene::LandCoverContrast::first_mixed_pattern == 56);
-    const auto is_mixed = hn::Eq(hn::And(ground, pair_bits(0x78)), pair_bits(56));
+    static_assert(scene::LandCoverContrast::first_mixed_pattern == 60);
+    const auto is_mixed = hn::Eq(hn::And(ground, pair_bits(0x7c)), pair_bits(60));
     if (!hn::AllFalse(bits, is_mixed)) {
-        const auto past = hn::BitCast(whole, hn::ShiftLeft<5>(hn::And(ground, pair_bits(7))));
+        const auto past = hn::BitCast(whole, hn::ShiftLeft<6>(hn::And(ground, pair_bits(3))));
         const auto open = pattern_of(hn::Zero(bits));
         const auto mixed = hn::Sub(
             share_of(both, share_of_first(past)), share_of(open, share_of_first(hn::Sub(all, past))));

@@ -31,7 +31,7 @@ public:
     /// Mixtures from this one on show DetailPattern::Kind::Open, those before it Crowns.
     static constexpr int first_open_mixture = mixture_count / 2;
     /// From this one to first_open_mixture Crowns give way to the inverse of Open, so that no edge is seen there.
-    static constexpr int first_mixed_pattern = first_open_mixture - 8;
+    static constexpr int first_mixed_pattern = first_open_mixture - 4;
 
     /// The pattern outlives it.
     LandCoverContrast(const std::array<LandCover, covers>& of, const DetailPattern& pattern);

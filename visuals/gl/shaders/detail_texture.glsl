@@ -9,7 +9,7 @@ const float texels_per_m = 16.0;
 const float texels_a_side = 64.0;
 const float max_slant2 = 300.0;
 const int first_open_mixture = 64; // those before it show crowns
-const int first_mixed_pattern = 56;
+const int first_mixed_pattern = 60;
 const mat3 pattern_from_world = mat3( // its columns are what the world's axes are in the pattern's
     0.649782467, -0.739147362, 0.177324346,
     0.618047243, 0.377951710, -0.689325837,
