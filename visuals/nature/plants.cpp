@@ -288,8 +288,10 @@ void PlantMesher::add_round_outline(const Plant& plant, const Placement& placeme
             weight += near * near;
         }
         sum /= weight;
+        constexpr float is_lowest = -0.9F; // such corners reach down to the trunk
+        const float radius = way.z < is_lowest ? std::numeric_limits<float>::max() : sum.x * ragged;
         const glm::vec3 from_centre =
-            crown.within_room(way, sum.x * ragged) * way * glm::vec3(1.0F, 1.0F, crown.half_height);
+            crown.within_room(way, radius) * way * glm::vec3(1.0F, 1.0F, crown.half_height);
         return to.add(placement.place_m(plant, glm::vec3(0.0F, 0.0F, crown.centre) + from_centre),
             lit_leaf(plant, leaf, {sum.y, sum.z}));
     };
