@@ -152,6 +152,28 @@ TEST_CASE("from the side the outline of a conifer steps out from tier to tier") 
     }
 }
 
+TEST_CASE("no ground is seen between a broad-leaved tree's crown and its trunk") {
+    PlantMesher mesher(Daylight({}));
+    Views views;
+    int gaps = 0;
+    for (int i = 0; i < 400; ++i) {
+        Plant plant{PlantKind::Broadleaf, {glm::vec3(60.0F, 0.0F, -3.0F), glm::vec2(0.0F)}, 3.0F, 9.0F, 40.0F};
+        plant.height_px = 40.0F + static_cast<float>(i % 8) * 10.0F;
+        plant.random_bits = views.bits();
+        Triangles triangles;
+        mesher.add(plant, triangles.mesh);
+        // Beside the axis, as a line of sight along an edge meets nothing.
+        const auto is_ground = [&](double height_m) {
+            return triangles.met(glm::dvec3(60.0, 0.043, height_m - 3.0)).empty();
+        };
+        constexpr double step_m = 0.05;
+        for (double height_m = 0.1; height_m < 6.0; height_m += step_m) {
+            gaps += is_ground(height_m) && is_ground(height_m + step_m) ? 1 : 0;
+        }
+    }
+    CHECK(gaps == 0);
+}
+
 TEST_CASE("plants and houses stay within their circles and above their ground") {
     PlantMesher mesher(Daylight({}));
     Views views;
