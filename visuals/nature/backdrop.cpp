@@ -10,8 +10,8 @@ namespace octant::visuals::nature {
 
 namespace {
 
-/// Distances of the rings from the map's edge over its mean half extent, from outside in. The last lies under the map's
-/// own border.
+/// Distances of the rings from the map's edge over its half extents, from outside in. The last lies under the map's own
+/// border.
 constexpr std::array ring_distance_ratios = {
     5.0, 3.3, 2.2, 1.5, 1.0, 0.78, 0.62, 0.50, 0.40, 0.32, 0.25, 0.18, 0.11, 0.05, 0.02, -0.01};
 constexpr double flat_ratio = 1.0; ///< from this ring on the land lies at the mean height
@@ -46,14 +46,14 @@ double mirrored(double at_m, double half_m) {
 
 double size_of(const BackdropSource& map) { return 0.5 * (map.half_extent_m.x + map.half_extent_m.y); }
 
-/// Of the outermost ring, over the map's mean half extent.
+/// Of the outermost ring, over the map's half extents.
 double reach_of(const BackdropSource& map) {
-    return std::max(ring_distance_ratios.front(), min_reach_m / size_of(map));
+    return std::max(ring_distance_ratios.front(), min_reach_m / std::min(map.half_extent_m.x, map.half_extent_m.y));
 }
 
 Backdrop::BackdropVertex vertex_at(const BackdropSource& map, double share, int number) {
     const double size_m = size_of(map);
-    const glm::dvec2 at_m = square_outline_point(number) * (map.half_extent_m + share * size_m);
+    const glm::dvec2 at_m = (1.0 + share) * square_outline_point(number) * map.half_extent_m;
     constexpr double inside = 0.999;
     const glm::dvec2 mirrored_m(
         inside * mirrored(at_m.x, map.half_extent_m.x), inside * mirrored(at_m.y, map.half_extent_m.y));

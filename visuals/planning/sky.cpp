@@ -82,6 +82,9 @@ double deepest_rad(const SurroundingPlain& plain) {
     return std::clamp(deepest, rad_from_deg(3.0), pi / 2.0);
 }
 
+/// Twice the area of the triangle that two vectors span: positive where `to` lies to the left of `from`.
+double turn(const glm::dvec2& from, const glm::dvec2& to) { return from.x * to.y - from.y * to.x; }
+
 } // namespace
 
 glm::vec3 through_haze(const scene::Haze& haze, const glm::dvec3& position_m, const glm::vec3& own) {
@@ -110,9 +113,7 @@ Sky::Sky(const nature::Daylight& day, nature::Backdrop land)
     for (const nature::Backdrop::BackdropVertex& corner : land_.vertices) {
         land_half_m_ = glm::max(land_half_m_, glm::abs(glm::dvec2(corner.at_m)));
     }
-    for (const std::uint32_t corner : land_.indices) {
-        indices_.push_back(static_cast<std::uint32_t>(sky_vertices_) + corner);
-    }
+    indices_.resize(sky_indices_ + land_.indices.size());
 }
 
 /// Looks at the outermost of the land around the map.
@@ -221,6 +222,31 @@ void Sky::place_land(const SurroundingPlain& plain, const glm::dvec3& eye_m) {
     }
 }
 
+/// Fills in the land's triangles in painting order: rings from outside in, in each the cells from the one that is opposite
+/// to the eye's as seen from the middle, and of a cell's two triangles the farther one first. A look from an eye inside
+/// all rings turns steadily away from the eye's cell, so nothing is painted over what hides it.
+void Sky::order_land(const glm::dvec2& eye_m) {
+    const std::size_t cells = land_.outer_vertices;
+    const auto at_m = [this](std::uint32_t vertex) { return glm::dvec2(land_.vertices[vertex].at_m); };
+    const auto is_left_of = [&](std::size_t corner) {
+        return turn(at_m(static_cast<std::uint32_t>(corner % cells)), eye_m) >= 0.0;
+    };
+    std::size_t own_cell = 0;
+    while (own_cell + 1 < cells && !(is_left_of(own_cell) && !is_left_of(own_cell + 1))) { ++own_cell; }
+    auto triangles = indices_.begin() + static_cast<std::ptrdiff_t>(sky_indices_);
+    for (std::size_t ring = 0; ring < land_.indices.size(); ring += 6 * cells) {
+        for (std::size_t nearer = cells; nearer-- > 0;) {
+            const std::size_t away = nearer % 2 == 1 ? (nearer + 1) / 2 : cells - nearer / 2;
+            const std::uint32_t* const cell = &land_.indices[ring + 6 * ((own_cell + away) % cells)];
+            const glm::dvec2 inner_m = at_m(cell[2]);
+            const bool outer_first = turn(at_m(cell[0]) - inner_m, eye_m - inner_m) <= 0.0;
+            for (std::size_t corner = 0; corner < 6; ++corner) {
+                *triangles++ = static_cast<std::uint32_t>(sky_vertices_) + cell[outer_first ? corner : (corner + 3) % 6];
+            }
+        }
+    }
+}
+
 /// Fills in shown_indices_ and is_shown_: the triangles that are not outside a plane, and their vertices.
 void Sky::keep_triangles_in(const Frustum& frustum, std::size_t vertices, std::size_t indices) {
     constexpr float margin = 1e-3F; // of the distance: far more than rounding moves a corner
@@ -260,7 +286,7 @@ void Sky::keep_triangles_in(const Frustum& frustum, std::size_t vertices, std::s
 
 scene::TriangleDraw Sky::around(
     const SurroundingPlain& plain, const scene::Haze& haze, const glm::dvec3& eye_m, const Frustum& frustum) {
-    const bool has_land = !land_.vertices.empty() && plain.height_below_eye_m > 0.0;
+    const bool has_land = !land_.vertices.empty();
     SurroundingPlain beyond = plain;
     if (plain.height_below_eye_m <= 0.0 && std::isfinite(plain.height_below_eye_m)) {
         beyond.height_below_eye_m = raised_eye_m;
@@ -276,6 +302,7 @@ scene::TriangleDraw Sky::around(
     }
     if (has_land) {
         place_land(plain, eye_m);
+        order_land(glm::dvec2(eye_m));
         for (std::size_t i = 0; i < land_m_.size(); ++i) {
             vertices_[sky_vertices_ + i].position_m = glm::vec3(land_m_[i]);
         }

@@ -43,7 +43,7 @@ public:
     static constexpr Frustum all_around{glm::dvec3(0.0), glm::dvec3(0.0), glm::dvec3(0.0), glm::dvec3(0.0)};
 
     /// The triangles, in painting order, and their vertices stay valid until the next call; those outside a plane are
-    /// left out. The land around the map is left out from below its mean height.
+    /// left out.
     scene::TriangleDraw around(const SurroundingPlain& plain, const scene::Haze& haze, const glm::dvec3& eye_m = {},
         const Frustum& frustum = all_around);
 
@@ -57,6 +57,7 @@ private:
     void add_sun(const nature::Daylight& day);
     void place_plain(const SurroundingPlain& plain);
     void place_land(const SurroundingPlain& plain, const glm::dvec3& eye_m);
+    void order_land(const glm::dvec2& eye_m);
     void keep_triangles_in(const Frustum& frustum, std::size_t vertices, std::size_t indices);
     void number_shown_vertices();
 
