@@ -277,15 +277,18 @@ public:
             across[i] = moves(tile_rays.part[i].per_x, near.across);
             down[i] = moves(tile_rays.part[i].per_y, near.down);
         }
-        // Most features are eight texels wide and more: half a level finer than usual will do.
-        const auto width2 = square(across);
-        const auto length2 = square(down);
-        const auto widest = hn::Max(width2, hn::Mul(length2, pair_floats(0.5F)));
+        const auto across2 = dot(across, across);
+        const auto down2 = dot(down, down);
+        const auto skew = dot(across, down);
+        const auto area2 = hn::Max(hn::Sub(hn::Mul(across2, down2), hn::Mul(skew, skew)), hn::Zero(PixelPairs()));
+        const auto length2 = hn::Max(across2, down2);
+        const auto width2 =
+            hn::Max(hn::Sqrt(area2), hn::Mul(length2, pair_floats(scene::DetailPattern::min_share2_of_length)));
         constexpr float all = 32767.0F;
-        const auto least = hn::Mul(width2, pair_floats(all * scene::DetailPattern::max_slant2));
-        slant_share_ = hn::Min(hn::Div(least, length2), pair_floats(all));
+        const auto least = hn::Mul(area2, pair_floats(all * scene::DetailPattern::max_slant2));
+        slant_share_ = hn::Min(hn::Div(least, hn::Mul(length2, length2)), pair_floats(all));
         const auto depth2 = hn::Mul(depth_, depth_);
-        choose_level(hn::Mul(hn::Mul(widest, depth2), pair_floats(rays.texels2_per_m2)));
+        choose_level(hn::Mul(hn::Mul(width2, depth2), pair_floats(rays.texels2_per_m2)));
         look_at(rays);
     }
 
@@ -299,9 +302,8 @@ public:
     }
 
 private:
-    static HWY_INLINE hn::Vec<PixelPairs> square(const PairRays& direction) {
-        return hn::Add(hn::Add(hn::Mul(direction[0], direction[0]), hn::Mul(direction[1], direction[1])),
-            hn::Mul(direction[2], direction[2]));
+    static HWY_INLINE hn::Vec<PixelPairs> dot(const PairRays& a, const PairRays& b) {
+        return hn::Add(hn::Add(hn::Mul(a[0], b[0]), hn::Mul(a[1], b[1])), hn::Mul(a[2], b[2]));
     }
 
     /// As scene::Haze, by polynomials: the pattern need not fade to the bit.
