@@ -169,15 +169,15 @@ using Pixels = hn::CappedTag<std::uint16_t, 16>;
 using PixelsSigned = hn::RebindToSigned<Pixels>;
 using Counts = hn::Vec<Pixels>;
 
-/// Takes the samples of a few pixels that are still free: how many for each, and none at all as `false`. Covers them.
-HWY_INLINE bool take_free(const std::uint16_t* masks, std::uint16_t* covered, Counts& counts, std::uint64_t& full) {
+/// Takes the samples of a few pixels that are still free; none at all: `false`. Covers them.
+HWY_INLINE bool take_free(
+    const std::uint16_t* masks, std::uint16_t* covered, hn::Vec<Pixels>& fresh, std::uint64_t& full) {
     const Pixels px;
     const auto before = hn::LoadU(px, covered);
-    const auto fresh = hn::AndNot(before, hn::LoadU(px, masks));
+    fresh = hn::AndNot(before, hn::LoadU(px, masks));
     if (hn::AllTrue(px, hn::Eq(fresh, hn::Zero(px)))) { return false; }
     const auto after = hn::Or(before, fresh);
     hn::StoreU(after, px, covered);
-    counts = hn::PopulationCount(fresh);
     alignas(8) std::array<std::uint8_t, 8> bits{};
     hn::StoreMaskBits(px, hn::Eq(after, hn::Set(px, 0xffff)), bits.data());
     full = static_cast<std::uint64_t>(bits[0]) | static_cast<std::uint64_t>(bits[1]) << 8;
@@ -268,9 +268,10 @@ HWY_NOINLINE void fill(const TileTriangle& one, const TileJob& job, TileBuffer& 
             bool walked = false;
             GradientStepper walk;
             for (std::size_t i = 0; i < block_px; i += px_at_once) {
-                Counts counts;
+                hn::Vec<Pixels> fresh;
                 std::uint64_t full = 0;
-                if (!take_free(masks + i, buffer.covered.data() + pixel + i, counts, full)) { continue; }
+                if (!take_free(masks + i, buffer.covered.data() + pixel + i, fresh, full)) { continue; }
+                const Counts counts = hn::PopulationCount(fresh);
                 const auto shift = static_cast<std::size_t>(in_tile) + i;
                 if (shift < tile_width) { buffer.full[static_cast<std::size_t>(at)] |= full << shift; }
                 if (job.detail_texture != nullptr && !triangle.has_detail_texture) {
@@ -295,7 +296,7 @@ HWY_NOINLINE void fill(const TileTriangle& one, const TileJob& job, TileBuffer& 
                 }
                 if (triangle.has_detail_texture) {
                     const glm::ivec2 from(in_tile + static_cast<int>(i), at);
-                    put_ground(Pixels(), triangle, job, from, counts, buffer);
+                    put_ground(Pixels(), triangle, job, from, fresh, buffer);
                 }
             }
         }

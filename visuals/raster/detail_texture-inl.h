@@ -82,8 +82,7 @@ public:
     /// Whether a pair of a row sees ground; beyond the last row as in it.
     bool has_ground(int row) const { return (any_ >> std::min(row, rows_ - 1) & 1U) != 0; }
 
-    /// Of pairs of a row and phase, from one of them on. None below what is no ground: a pixel at the horizon may be
-    /// half sky.
+    /// Of pairs of a row and phase, from one of them on.
     HWY_INLINE InverseDepthQuad at(int row, std::size_t phase, std::size_t first) const {
         const float* const own = of_row(row) + first + (phase == 0 ? 0 : odd_pairs);
         const float* const before = phase == 0 ? own + odd_pairs - 1 : own - odd_pairs;
@@ -96,7 +95,6 @@ public:
     HWY_INLINE InterpolatedPairs interpolated_at(int row, std::size_t phase, std::size_t first) const {
         const PixelPairs real;
         const float* const own = of_row(row) + first + (phase == 0 ? 0 : odd_pairs);
-        const float* const before = phase == 0 ? own + odd_pairs - 1 : own - odd_pairs;
         const auto both = [&](const float* corner)
                               HWY_ATTR { return hn::Add(hn::LoadU(real, corner), hn::LoadU(real, corner + phase)); };
         const int away = row & 1;
@@ -104,9 +102,7 @@ public:
         const auto here = hn::LoadU(real, own);
         constexpr float max_off = 1.0F / 64.0F; // of four times itself: a pixel's height
         const auto off = hn::Sub(hn::Mul(here, pair_floats(4.0F)), around);
-        const auto above = hn::LoadU(real, own - row_size);
-        return {is_seen(here, above, hn::LoadU(real, before), hn::LoadU(real, before + 1)),
-            hn::Le(hn::Abs(off), hn::Mul(here, pair_floats(max_off)))};
+        return {hn::Gt(here, hn::Zero(real)), hn::Le(hn::Abs(off), hn::Mul(here, pair_floats(max_off)))};
     }
 
     /// Of what lies right of the tile, in rows from one on.
@@ -132,19 +128,13 @@ private:
     static constexpr std::size_t max_rows = tile_height / 2;
     static_assert(pairs_per_phase + 1 < odd_pairs);
 
-    static HWY_INLINE hn::Mask<PixelPairs> is_seen(
-        hn::Vec<PixelPairs> own, hn::Vec<PixelPairs> above, hn::Vec<PixelPairs> before, hn::Vec<PixelPairs> next) {
-        const auto min = hn::Min(hn::Min(own, above), hn::Max(before, next));
-        return hn::Gt(min, hn::Zero(PixelPairs()));
-    }
-
     static HWY_INLINE InverseDepthQuad between(hn::Vec<PixelPairs> own,
         const std::array<hn::Vec<PixelPairs>, 2>& right_of_tile,
         const std::array<hn::Vec<PixelPairs>, 2>& above_and_below) {
         const auto& [before, next] = right_of_tile;
         const auto& [above, below] = above_and_below;
         const auto half = pair_floats(0.5F);
-        return {hn::IfThenElseZero(is_seen(own, above, before, next), own),
+        return {own,
             hn::Mul(smaller_change(hn::Sub(next, own), hn::Sub(own, before)), half),
             hn::Mul(smaller_change(hn::Sub(below, own), hn::Sub(own, above)), half)};
     }
@@ -287,15 +277,18 @@ public:
             across[i] = moves(tile_rays.part[i].per_x, near.across);
             down[i] = moves(tile_rays.part[i].per_y, near.down);
         }
-        // Most features are eight texels wide and more: half a level finer than usual will do.
-        const auto width2 = square(across);
-        const auto length2 = square(down);
-        const auto widest = hn::Max(width2, hn::Mul(length2, pair_floats(0.5F)));
+        const auto across2 = dot(across, across);
+        const auto down2 = dot(down, down);
+        const auto skew = dot(across, down);
+        const auto area2 = hn::Max(hn::Sub(hn::Mul(across2, down2), hn::Mul(skew, skew)), hn::Zero(PixelPairs()));
+        const auto length2 = hn::Max(across2, down2);
+        const auto width2 =
+            hn::Max(hn::Sqrt(area2), hn::Mul(length2, pair_floats(scene::DetailPattern::min_share2_of_length)));
         constexpr float all = 32767.0F;
-        const auto least = hn::Mul(width2, pair_floats(all * scene::DetailPattern::max_slant2));
-        slant_share_ = hn::Min(hn::Div(least, length2), pair_floats(all));
+        const auto least = hn::Mul(area2, pair_floats(all * scene::DetailPattern::max_slant2));
+        slant_share_ = hn::Min(hn::Div(least, hn::Mul(length2, length2)), pair_floats(all));
         const auto depth2 = hn::Mul(depth_, depth_);
-        choose_level(hn::Mul(hn::Mul(widest, depth2), pair_floats(rays.texels2_per_m2)));
+        choose_level(hn::Mul(hn::Mul(width2, depth2), pair_floats(rays.texels2_per_m2)));
         look_at(rays);
     }
 
@@ -309,9 +302,8 @@ public:
     }
 
 private:
-    static HWY_INLINE hn::Vec<PixelPairs> square(const PairRays& direction) {
-        return hn::Add(hn::Add(hn::Mul(direction[0], direction[0]), hn::Mul(direction[1], direction[1])),
-            hn::Mul(direction[2], direction[2]));
+    static HWY_INLINE hn::Vec<PixelPairs> dot(const PairRays& a, const PairRays& b) {
+        return hn::Add(hn::Add(hn::Mul(a[0], b[0]), hn::Mul(a[1], b[1])), hn::Mul(a[2], b[2]));
     }
 
     /// As scene::Haze, by polynomials: the pattern need not fade to the bit.
@@ -730,12 +722,14 @@ private:
     }
 };
 
-/// The mean of both, none where one of them is none. `is_one_none`: of each lane.
+/// The mean of both; where one of them is none, the other one: beside a tree the ground goes on. `is_one_none`: of each
+/// lane.
 template <class Tag>
 HWY_INLINE hn::Vec<Tag> mean_of(Tag tag, hn::Vec<Tag> one, hn::Vec<Tag> other, hn::Mask<Tag> is_one_none) {
     const PixelPairHalves halves;
     const auto half = [&](hn::Vec<Tag> of) HWY_ATTR { return hn::ShiftRight<1>(hn::BitCast(halves, of)); };
-    return hn::IfThenZeroElse(is_one_none, hn::BitCast(tag, hn::Add(half(one), half(other))));
+    const auto mean = hn::Add(half(one), half(other));
+    return hn::IfThenElse(is_one_none, hn::BitCast(tag, hn::Add(mean, mean)), hn::BitCast(tag, mean));
 }
 
 /// All pixels of a row of pairs.
@@ -816,30 +810,35 @@ public:
     /// The pixels between a row of pairs and the one above it, which the call before was for, and its own.
     HWY_NOINLINE void change(int row, const DetailRow& seen) {
         const bool is_seen = inverse_depths_.has_ground(row);
-        if (!is_seen) { return; }
+        const bool is_above_seen = row > 0 && inverse_depths_.has_ground(row - 1);
         const ChangeRow& above = rows_[static_cast<std::size_t>(row + 1) % 2];
         ChangeRow& own = rows_[static_cast<std::size_t>(row) % 2];
-        // Below the tile the land of its last row goes on.
-        const int of_ground = 2 * std::min(row, inverse_depths_.rows() - 1);
-        put_row(ChangesOfPairs(seen, buffer_.ground_of_row(of_ground), job_.detail_texture->contrast), own);
-        const auto load = [](const ChangeRow& from, std::size_t x) HWY_ATTR {
-            const auto part = [&](std::size_t k) HWY_ATTR { return hn::Load(PixelPairHalves(), &from.part[k][x]); };
-            return Changes{part(0), part(1), part(2)};
+        if (is_seen) {
+            // Below the tile the land of its last row goes on.
+            const int of_ground = 2 * std::min(row, inverse_depths_.rows() - 1);
+            put_row(ChangesOfPairs(seen, buffer_.ground_of_row(of_ground), job_.detail_texture->contrast), own);
+        }
+        const auto in_row = [](const ChangeRow& from) HWY_ATTR {
+            return [&from](std::size_t x) HWY_ATTR {
+                const auto part = [&](std::size_t k)
+                                      HWY_ATTR { return hn::Load(PixelPairHalves(), &from.part[k][x]); };
+                return Changes{part(0), part(1), part(2)};
+            };
         };
-        if (row > 0 && inverse_depths_.has_ground(row - 1)) {
+        if (is_seen && is_above_seen) {
             const auto between = [&](std::size_t x) HWY_ATTR {
-                const Changes one = load(above, x);
-                const Changes other = load(own, x);
+                const Changes one = in_row(above)(x);
+                const Changes other = in_row(own)(x);
                 const auto is_one_none = hn::Or(is_none(one), is_none(other));
                 const auto part = [&](std::size_t k)
                                       HWY_ATTR { return mean_of(PixelPairHalves(), one[k], other[k], is_one_none); };
                 return Changes{part(0), part(1), part(2)};
             };
             change_row(between, 2 * row - 1, buffer_);
+        } else if (row > 0 && (is_seen || is_above_seen)) {
+            change_row(in_row(is_seen ? own : above), 2 * row - 1, buffer_);
         }
-        if (2 * row < job_.size_px.y) {
-            change_row([&](std::size_t x) HWY_ATTR { return load(own, x); }, 2 * row, buffer_);
-        }
+        if (is_seen && 2 * row < job_.size_px.y) { change_row(in_row(own), 2 * row, buffer_); }
     }
 
 private:

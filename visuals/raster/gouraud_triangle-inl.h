@@ -56,7 +56,8 @@ public:
         max_cover_ = hn::Set(Whole(), PackedGround::limit(triangle.gradients.max[3]));
     }
 
-    /// Writes it for those in even columns of an even row of the tile where samples are fresh.
+    /// Writes it for those in even columns of an even row of the tile where PackedGround::sample is fresh, or any sample
+    /// and none is written yet.
     HWY_INLINE void put(int row, hn::Vec<Tag> fresh, TileBuffer& buffer) const {
         const Real real;
         const Bits bits;
@@ -69,9 +70,12 @@ public:
         const auto cover = hn::BitCast(bits, hn::Min(hn::Max(raw_cover, min_cover_), max_cover_));
         const auto both = hn::Or(hn::AndNot(hn::Set(bits, PackedGround::cover_bits), hn::BitCast(bits, near)),
             hn::ShiftRight<PackedGround::cover_shift>(cover));
-        const auto is_fresh = hn::Ne(hn::And(hn::BitCast(bits, fresh), is_even_), hn::Zero(bits));
+        const auto samples = hn::And(hn::BitCast(bits, fresh), is_even_);
         std::uint32_t* const to = buffer.ground_of_row(row) + (column_ + 1) / 2;
-        hn::BlendedStore(both, is_fresh, bits, to);
+        const auto before = hn::LoadU(bits, to);
+        const auto of_own = hn::Eq(hn::And(samples, hn::Set(bits, PackedGround::sample * 0x10001U)), hn::Zero(bits));
+        const auto is_kept = hn::Or(hn::Eq(samples, hn::Zero(bits)), hn::AndNot(hn::Eq(before, hn::Zero(bits)), of_own));
+        hn::StoreU(hn::IfThenElse(is_kept, before, both), bits, to);
     }
 
 private:
@@ -91,7 +95,7 @@ private:
     std::uint32_t cover_per_row_;
 };
 
-/// Writes it for those of a row's pixels that lie in even columns and rows of the tile, where samples are fresh. The
+/// Writes it for those of a row's pixels that lie in even columns and rows of the tile, as GroundOfColumns::put(). The
 /// row begins at a column and row of the tile.
 template <class Tag>
 HWY_INLINE void put_ground(Tag /*pixels*/, const Triangle& triangle, const TileJob& job, const glm::ivec2& at,
@@ -462,7 +466,8 @@ HWY_INLINE void paint_speck(
         } else if constexpr (kind == PaintAs::Ground && right == 0) { // which is even
             if (row % 2 == 0 && fresh != 0) {
                 const glm::ivec2 at = job.first_px + glm::ivec2(box.left, row);
-                buffer.ground_of_row(row)[box.left / 2] = ground_at(triangle, at.x, at.y);
+                std::uint32_t& ground = buffer.ground_of_row(row)[box.left / 2];
+                if (ground == 0 || (fresh & PackedGround::sample) != 0) { ground = ground_at(triangle, at.x, at.y); }
             }
         }
     };

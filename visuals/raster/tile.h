@@ -146,8 +146,8 @@ struct TileBuffer {
     /// ground that has it.
     std::array<std::array<std::uint16_t, pixels + padding>, 4> sums{};
     /// Where the picture has a detail texture: of the first pixel, third, and so on of the first row, third, and so on,
-    /// the PackedGround that was painted there last; 0: none. Rows follow each other without gaps; there is room before
-    /// the first one and behind the last.
+    /// the PackedGround at PackedGround::sample, or where that shows none, of the nearest ground in the pixel; 0: none.
+    /// Rows follow each other without gaps; there is room before the first one and behind the last.
     static constexpr std::size_t ground_room = 16;
     alignas(64) std::array<std::uint32_t, pixels / 4 + 2 * ground_room> ground{};
     /// A bit for each column that is covered whole; one row more than there are.

@@ -240,6 +240,9 @@ struct Triangle {
 struct PackedGround {
     static constexpr std::uint32_t cover_bits = 0x7f;
     static constexpr int cover_shift = 17; ///< from 2^-16 level
+    /// The sample of a pixel whose ground is recorded, one of those next to its middle. If any farther sample counted,
+    /// one that falls to the other side of a ridge's edge would change the pattern of all pixels around.
+    static constexpr std::uint32_t sample = 1U << 7;
 
     /// The land cover at a pixel: the gradients' fourth value, in 2^-16 level from 0.
     static std::uint32_t first_cover(const ColourGradients& gradients, const glm::ivec2& at) {

@@ -11,27 +11,21 @@ namespace octant::visuals::scene {
 
 namespace {
 
-/// Standard deviations of the pattern over which one cover gives way to the other: about four pixels, so that a turn by
-/// half a pixel changes little.
-constexpr double border_width = 2.28;
+/// Standard deviations of the pattern over which one cover gives way to the other: about five pixels, so that a turn by
+/// half a pixel changes little, and woods from afar are no hard blots.
+constexpr double border_width = 2.8;
 /// Snow thins out over a wider border than one cover meets another, and with less contrast: patches as sharp and as
 /// dark as those look like camouflage.
 constexpr double snow_border_width = 5.0;
 constexpr double snow_contrast = 0.4;
 /// Of the brightness of closed woods: lone crowns, with their shade on the ground.
-constexpr float lone_crown_brightness = 0.685F;
-/// Of the mottling of ground between crowns: it is brightest where it is farthest from them, where the pattern is low.
-constexpr float mottling_between_crowns = -0.5F;
-/// The largest share of ground between crowns that shows crowns alone.
-constexpr double crowns_share =
-    1.0 - 4.0 * (LandCoverContrast::first_open_mixture - LandCoverContrast::first_mixed_pattern) /
-              LandCoverContrast::mixture_count;
+constexpr float lone_crown_brightness = 0.65F;
 /// A cover of a smaller share than this appears as its share grows: at once it would have an edge.
 constexpr double least_share = 0.125;
 /// Of the brightness of a cover: shade under crowns is not black.
 constexpr double darkest = 0.3;
 /// Of the difference in hue: means are seldom of the very colours that covers are said to have.
-constexpr double hue_share = 0.45;
+constexpr double hue_share = 0.38;
 constexpr double min_mean = 1e-3;
 constexpr double max_share = 511.0 / 512.0;
 
@@ -79,8 +73,7 @@ Mixture mixture_of(std::size_t cover, double second, const std::array<LandCover,
     mixture.first = cover == 0 ? LandCover{mixture.second.colour, 0.0F} : covers[cover - 1];
     if (mixture.has_crowns) {
         mixture.first.colour *= lone_crown_brightness;
-        const double through = std::max((second - crowns_share) / (1.0 - crowns_share), 0.0);
-        mixture.second.mottling *= glm::mix(mottling_between_crowns, -1.0F, static_cast<float>(through));
+        mixture.second.mottling *= -1.0F; // it is brightest where it is farthest from crowns, where the pattern is low
     }
     return mixture;
 }

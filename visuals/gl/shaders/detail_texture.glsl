@@ -7,6 +7,7 @@ layout(binding = 3) uniform sampler2D contrast;
 
 const float texels_per_m = 16.0;
 const float texels_a_side = 64.0;
+const float min_share2_of_length = 0.125;
 const float max_slant2 = 300.0;
 const int first_open_mixture = 64; // those before it show crowns
 const int first_mixed_pattern = 60;
@@ -27,9 +28,11 @@ vec3 detail_at(vec3 place_m, vec3 across, vec3 down, float covers) {
     if (covers <= 0.0 || detail_at_eye[0].w == 0.0) {
         return vec3(0.0);
     }
-    // Half a level finer than usual: most features are eight texels wide.
     float texels_at_level_0 = detail_at_eye[0].w;
-    float width2 = max(dot(across, across), 0.5 * dot(down, down)) * texels_at_level_0 * texels_at_level_0;
+    float length2 = max(dot(across, across), dot(down, down));
+    vec3 normal = cross(across, down); // as long as the area is large
+    float area2 = dot(normal, normal);
+    float width2 = max(sqrt(area2), min_share2_of_length * length2) * texels_at_level_0 * texels_at_level_0;
     float level = clamp(0.5 * log2(max(width2, 1.0)), 0.45, 13.99);
     int scale = int(level / 2.0);
     float through = level / 2.0 - float(scale);
@@ -46,6 +49,6 @@ vec3 detail_at(vec3 place_m, vec3 across, vec3 down, float covers) {
                        ? open_and_crowns.y * (1.0 - past * past) - open_and_crowns.x * (past * (2.0 - past))
                        : open_and_crowns.x;
     int pattern_step = int(clamp(sought * 32.0 + 32.0, 0.0, 63.0));
-    float left = min(max_slant2 * dot(across, across) / dot(down, down), 1.0);
+    float left = min(max_slant2 * area2 / (length2 * length2), 1.0);
     return left * (texelFetch(contrast, ivec2(pattern_step, mixture), 0).rgb * (1023.0 / 512.0) - 1.0);
 }
