@@ -15,8 +15,12 @@
 #include <array>
 #include <cmath>
 #include <csignal>
+#include <cstddef>
+#include <cstdint>
 #include <fmt/format.h>
 #include <fstream>
+#include <set>
+#include <span>
 #include <sys/resource.h>
 
 using namespace octant;
@@ -147,17 +151,24 @@ TEST_CASE("a growing file with an end has it after each flush, and where the dis
     CHECK(read_file(path) == "[1]");
 }
 
-TEST_CASE("the hash sees every byte and its place") {
-    std::array<std::byte, 11> bytes{};
-    Hash reference;
-    reference.add(bytes);
-    for (auto& byte : bytes) {
-        byte = std::byte{1};
-        Hash changed;
-        changed.add(bytes);
-        CHECK(changed.value() != reference.value());
-        byte = std::byte{0};
-    }
+TEST_CASE("a hash sees every byte and its place, whole or by quarters") {
+    const auto whole = [](std::span<const std::byte> bytes) { return checksum_of(bytes); };
+    const auto by_quarters = [](std::span<const std::byte> bytes) { return hash_by_quarters(bytes); };
+    const auto check = [](const auto& hash_of) {
+        std::array<std::byte, 75> bytes{}; // two words a quarter, and eleven bytes
+        std::set<std::uint64_t> seen{hash_of(bytes)};
+        for (auto& byte : bytes) {
+            byte = std::byte{1};
+            CHECK(seen.insert(hash_of(bytes)).second);
+            byte = std::byte{0};
+        }
+    };
+    check(whole);
+    check(by_quarters);
+    std::array<std::byte, 11> shorter_than_a_word_each{};
+    const std::uint64_t reference = hash_by_quarters(shorter_than_a_word_each);
+    shorter_than_a_word_each.back() = std::byte{1};
+    CHECK(hash_by_quarters(shorter_than_a_word_each) != reference);
 }
 
 TEST_CASE("text from outside is made printable and short") {

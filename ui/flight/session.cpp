@@ -220,10 +220,9 @@ void Session::fill_in(const planning::PlanCounts& counts, report::FrameRecord& r
 }
 
 std::uint64_t Session::hash_picture() {
-    Hash hash;
-    hash.add(std::as_bytes(std::span(picture().rgba)));
-    picture_hash_.add_word(hash.value());
-    return hash.value();
+    const std::uint64_t hash = hash_by_quarters(std::as_bytes(std::span(picture().rgba)));
+    picture_hash_.add_word(hash);
+    return hash;
 }
 
 } // namespace octant::ui::flight

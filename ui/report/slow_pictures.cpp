@@ -11,24 +11,6 @@
 
 namespace octant::ui::report {
 
-namespace {
-
-/// Mean of one channel over a square of side `side` with its top left corner at (x, y).
-std::byte square_mean(const PixelView& picture, int x, int y, int side, int channel) {
-    unsigned sum = 0;
-    for (int row = y; row < y + side; ++row) {
-        const auto bytes = picture.row(row);
-        for (int column = x; column < x + side; ++column) {
-            const int at = column * picture.channels + channel;
-            sum += std::to_integer<unsigned>(bytes[static_cast<std::size_t>(at)]);
-        }
-    }
-    const auto count = static_cast<unsigned>(side * side);
-    return static_cast<std::byte>((sum + count / 2) / count);
-}
-
-} // namespace
-
 std::vector<std::size_t> evenly_spaced(std::size_t count, std::size_t max_count) {
     assert(max_count >= 1);
     std::vector<std::size_t> chosen;
@@ -47,10 +29,22 @@ Picture downscaled(const PixelView& picture, int widest) {
     const int side = std::min((picture.width_px + widest - 1) / widest, std::max(1, picture.height_px));
     Picture small{picture.width_px / side, picture.height_px / side, 3, {}};
     small.bytes.reserve(small.view().row_bytes() * static_cast<std::size_t>(small.height_px));
+    const auto count = static_cast<unsigned>(side * side);
+    const auto channels = static_cast<std::size_t>(picture.channels);
+    std::vector<unsigned> sums; // of the bytes of `side` rows
     for (int y = 0; y < small.height_px; ++y) {
-        for (int x = 0; x < small.width_px; ++x) {
-            for (int channel = 0; channel < 3; ++channel) {
-                small.bytes.push_back(square_mean(picture, x * side, y * side, side, channel));
+        sums.assign(picture.row_bytes(), 0);
+        for (int row = y * side; row < (y + 1) * side; ++row) {
+            const std::byte* const bytes = picture.row(row).data();
+            for (std::size_t i = 0; i < sums.size(); ++i) { sums[i] += std::to_integer<unsigned>(bytes[i]); }
+        }
+        for (std::size_t x = 0; x < static_cast<std::size_t>(small.width_px); ++x) {
+            for (std::size_t channel = 0; channel < 3; ++channel) {
+                unsigned sum = count / 2;
+                for (std::size_t column = 0; column < static_cast<std::size_t>(side); ++column) {
+                    sum += sums[(x * static_cast<std::size_t>(side) + column) * channels + channel];
+                }
+                small.bytes.push_back(static_cast<std::byte>(sum / count));
             }
         }
     }

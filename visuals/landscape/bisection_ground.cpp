@@ -65,50 +65,60 @@ Octave octave_of(float footprints) {
     return {(bits >> 23U) - 127U, (bits >> 15U) & 0xffU};
 }
 
+constexpr std::uint32_t subdivisions = 64;
+
+/// A place of the grid, of which there are `subdivisions` from each sample to the next; at most 2^22 along each axis.
+struct SubgridPoint {
+    std::uint32_t column = 0;
+    std::uint32_t row = 0;
+};
+
 /// Remembers colours by place and octave. Any number of threads may ask and add at a time: an entry is one word, which
 /// holds all of the key that its bucket does not say, and whose colour follows from the key alone. So a lost entry
-/// costs time and changes nothing.
+/// costs time and changes nothing. The two octaves that a vertex mixes are in one bucket, one line of the caches.
 class ColourTable {
 public:
-    /// A place in 1/64 of the distance of samples, at most 2^22 along each axis, and an octave up to 30.
-    struct Key {
-        std::uint32_t column;
-        std::uint32_t row;
-        unsigned octave;
-    };
+    ColourTable() : buckets_(std::make_unique<Bucket[]>(buckets)) {}
 
-    ColourTable() : words_(std::make_unique<std::atomic<std::uint64_t>[]>(buckets * ways)) {}
+    /// Where the colours of a place are. The table is too large for the caches: who prefetches this waits less.
+    const void* address_of(const SubgridPoint& place) const { return &buckets_[hash_of(place) % buckets]; }
 
-    /// The colour of a key, which compute() makes where it is not remembered.
+    /// The colour of a place and an octave up to 30, which compute() makes where it is not remembered.
     template <typename Compute>
-    std::uint32_t get(const Key& key, const Compute& compute) const {
-        // Multiplications by odd numbers and shifts can be undone within 49 bits: bucket and tag together are the key.
-        constexpr std::uint64_t key_mask = (std::uint64_t{1} << key_bits) - 1;
-        std::uint64_t h = (std::uint64_t{key.column} << 27U | std::uint64_t{key.row} << 5U | (key.octave + 1U));
-        h = h * 0x9e3779b97f4a7c15U & key_mask;
-        h ^= h >> 25U;
-        h = h * 0xd1b54a32d192ed03U & key_mask;
-        h ^= h >> 29U;
-        const std::uint64_t tag = h >> bucket_bits;
-        std::atomic<std::uint64_t>* const bucket = &words_[(h & (buckets - 1)) * ways];
-        std::size_t free = tag % ways;
-        for (std::size_t way = 0; way < ways; ++way) {
-            const std::uint64_t word = bucket[way].load(std::memory_order_relaxed);
-            if (word >> 32U == tag && word != 0) { return static_cast<std::uint32_t>(word); }
-            if (word == 0) { free = way; }
+    std::uint32_t get(const SubgridPoint& place, unsigned octave, const Compute& compute) const {
+        const std::uint64_t hash = hash_of(place);
+        const std::uint64_t tag = hash / buckets << 5U | (octave + 1U);
+        Bucket& bucket = buckets_[hash % buckets];
+        std::atomic<std::uint64_t>* free = &bucket.words[tag % bucket.words.size()];
+        for (std::atomic<std::uint64_t>& entry : bucket.words) {
+            const std::uint64_t word = entry.load(std::memory_order_relaxed);
+            if (word >> 32U == tag) { return static_cast<std::uint32_t>(word); }
+            if (word == 0) { free = &entry; }
         }
         const std::uint32_t colour = compute();
-        bucket[free].store(tag << 32U | colour, std::memory_order_relaxed);
+        free->store(tag << 32U | colour, std::memory_order_relaxed);
         return colour;
     }
 
 private:
-    static constexpr unsigned key_bits = 49;
-    static constexpr unsigned bucket_bits = 17;
-    static constexpr std::size_t buckets = std::size_t{1} << bucket_bits;
-    static constexpr std::size_t ways = 2;
+    static constexpr unsigned place_bits = 44;
+    static constexpr std::uint64_t buckets = std::uint64_t{1} << 17U;
 
-    std::unique_ptr<std::atomic<std::uint64_t>[]> words_; ///< 0 = unused
+    struct alignas(32) Bucket {
+        std::array<std::atomic<std::uint64_t>, 4> words{}; ///< 0 = unused
+    };
+
+    /// Multiplications by odd numbers and shifts can be undone within 44 bits: bucket and tag together are the key.
+    static std::uint64_t hash_of(const SubgridPoint& place) {
+        constexpr std::uint64_t mask = (std::uint64_t{1} << place_bits) - 1;
+        std::uint64_t h = std::uint64_t{place.column} << 22U | std::uint64_t{place.row};
+        h = h * 0x9e3779b97f4a7c15U & mask;
+        h ^= h >> 25U;
+        h = h * 0xd1b54a32d192ed03U & mask;
+        return h ^ h >> 29U;
+    }
+
+    std::unique_ptr<Bucket[]> buckets_;
 };
 
 /// Colours the vertices of meshes with geomorphs so that no change of detail changes a colour in a step. What a vertex
@@ -117,8 +127,8 @@ private:
 /// its ends to its own. Near the eye the footprint is smaller than the distance of samples, and places between them
 /// have colours, too. Water takes part of what it shows from the sky and the sun, by the eye's place.
 ///
-/// Colours are worked out when first asked for, so that the size of the ground does not matter, and the last quarter of
-/// a million are remembered, for all views together.
+/// Colours are worked out when first asked for, so that the size of the ground does not matter, and the last half a
+/// million are remembered, for all views together.
 class VertexColours {
 public:
     /// The ground must outlive the colours.
@@ -132,10 +142,14 @@ public:
     /// Fills in ColourVertex::colour; `morphs` as GroundMesh::morphs.
     void fill(std::span<models::ColourVertex> vertices, std::span<const terrain::VertexMorph> morphs) const {
         assert(vertices.size() == morphs.size());
+        const auto place_of = [&](std::size_t i) {
+            return SubgridPoint{morphs[i].column * subdivisions, morphs[i].row * subdivisions};
+        };
+        constexpr std::size_t ahead = 16;
         for (std::size_t i = 0; i < vertices.size(); ++i) {
+            if (i + ahead < morphs.size()) { __builtin_prefetch(table_.address_of(place_of(i + ahead))); }
             const terrain::VertexMorph& origin = morphs[i];
-            std::uint32_t colour = colour_at_distance(
-                {origin.column * subdivisions, origin.row * subdivisions}, glm::length(vertices[i].position_m));
+            std::uint32_t colour = colour_at_distance(place_of(i), glm::length(vertices[i].position_m));
             if (origin.weight < 1.0F) {
                 const std::uint32_t middle =
                     mixed(vertices[origin.parent_a].colour, vertices[origin.parent_b].colour, 128U);
@@ -184,15 +198,6 @@ public:
     }
 
 private:
-    /// A place of the grid, of which there are `subdivisions` from each sample to the next.
-    struct SubgridPoint {
-        std::uint32_t column = 0;
-        std::uint32_t row = 0;
-
-        bool operator==(const SubgridPoint&) const = default;
-    };
-
-    static constexpr std::uint32_t subdivisions = 64;
     /// Footprints are counted from the distance of samples over 2^finer_octaves.
     static constexpr unsigned finer_octaves = 5;
 
@@ -208,7 +213,7 @@ private:
     }
 
     std::uint32_t colour_of(const SubgridPoint& place, unsigned octave) const {
-        return table_.get({place.column, place.row, octave}, [&] { return made_colour(place, octave); });
+        return table_.get(place, octave, [&] { return made_colour(place, octave); });
     }
 
     std::uint32_t made_colour(const SubgridPoint& place, unsigned octave) const {

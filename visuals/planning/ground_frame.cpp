@@ -129,10 +129,7 @@ namespace {
 /// Renderers round screen positions to 1/256 pixel. Twice that bounds the error of both ends of an edge.
 constexpr float rounding_px = 2.0F / 256.0F;
 
-float sum_of_parts(const glm::vec3& v) {
-    const glm::vec3 size = glm::abs(v);
-    return size.x + size.y + size.z;
-}
+float sum_of_parts(const glm::vec3& v) { return std::abs(v.x) + std::abs(v.y) + std::abs(v.z); }
 
 /// Corners relative to the eye. The triple product is the triangle's doubled area on the screen times distance cubed
 /// times the pixel's angle squared; rounding moves that area by at most rounding_px times the outline. Sums of parts

@@ -28,7 +28,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 // -- Triangles lie where they were set up, far apart for a tile: they are prefetched while others are painted.
 
-constexpr std::size_t triangles_ahead = 4;
+constexpr std::size_t triangles_ahead = 12;
 
 /// Prefetches a triangle into the cache, if there is one of that number.
 HWY_INLINE void prefetch_triangle(std::span<const TileTriangle> triangles, std::size_t number) {

@@ -483,6 +483,10 @@ HWY_INLINE hn::Vec<PixelPairBits> sample_detail(
     const std::uint16_t* texels, hn::Vec<PixelPairBits> ground, const DetailPositions& places) {
     const PixelPairBits bits;
     const PixelPairInts whole;
+    const auto none = hn::Zero(bits);
+    const auto cover = hn::And(ground, pair_bits(PackedGround::cover_bits));
+    // Sky, water and whatever the haze hides: their contrast is none.
+    if (hn::AllTrue(bits, hn::Or(hn::Eq(places.left, none), hn::Eq(cover, none)))) { return none; }
     const auto share_of = [&](hn::Vec<PixelPairInts> value, hn::Vec<PixelPairInts> share)
                               HWY_ATTR { return hn::ShiftRight<8>(hn::Mul(value, share)); };
     const auto half_texel = pair_bits(128);
@@ -511,12 +515,14 @@ HWY_INLINE hn::Vec<PixelPairBits> sample_detail(
         return hn::Add(share_of(at_level(first_row, level), share_of_first(through)),
             share_of(coarse, share_of_first(hn::Sub(all, through))));
     };
-    auto both = pattern_of(first_rows_of_kinds(ground));
+    const auto first_rows = first_rows_of_kinds(ground);
+    auto both = pattern_of(first_rows);
     static_assert(scene::LandCoverContrast::first_mixed_pattern == 60);
     const auto is_mixed = hn::Eq(hn::And(ground, pair_bits(0x7c)), pair_bits(60));
     if (!hn::AllFalse(bits, is_mixed)) {
         const auto past = hn::BitCast(whole, hn::ShiftLeft<6>(hn::And(ground, pair_bits(3))));
-        const auto open = pattern_of(hn::Zero(bits));
+        // Pairs that are not mixed look where they looked before, which is in the caches.
+        const auto open = pattern_of(hn::IfThenZeroElse(is_mixed, first_rows));
         const auto mixed = hn::Sub(
             share_of(both, share_of_first(past)), share_of(open, share_of_first(hn::Sub(all, past))));
         both = hn::IfThenElse(hn::RebindMask(whole, is_mixed), mixed, both);
@@ -566,7 +572,7 @@ public:
     }
 
     /// Looks up a row between two of even number; one of these is its own above and below.
-    HWY_NOINLINE void look(
+    HWY_NOINLINE HWY_FLATTEN void look(
         int row, const DetailPositionRow& above, const DetailPositionRow& below, DetailRow& detail_texture) const {
         const PixelPairBits bits;
         const std::uint16_t* const texels = job_.detail_texture->texels;

@@ -546,7 +546,7 @@ HWY_INLINE void paint_strip_of_middles(
 /// Paints a triangle of Fill::Gouraud that no clip plane cuts: a triangle of the ground, of a flat or of a
 /// Gouraud-shaded polygon.
 template <PaintAs kind>
-HWY_NOINLINE void paint_gouraud(
+HWY_NOINLINE HWY_FLATTEN void paint_gouraud(
     const Triangle& triangle, const TileJob& job, const SampleLanes& lanes, TileBuffer& buffer) {
     TileBox box(triangle, job);
     if (!box.keep_free_rows(buffer)) { return; }

@@ -257,7 +257,10 @@ void TriangleBinner::bin(Batch& batch) const {
     for (std::size_t tile = 0; tile < tiles; ++tile) { batch.tile_first[tile + 1] += batch.tile_first[tile]; }
     batch.by_tile.resize(batch.tile_first[tiles]);
     for (std::uint32_t i = 0; i < batch.list.triangles.size(); ++i) {
-        for_each_tile(batch.list.triangles[i], [&](std::size_t tile) { batch.by_tile[batch.tile_first[tile]++] = i; });
+        const Triangle& triangle = batch.list.triangles[i];
+        const bool is_plain = triangle.extra == Triangle::none && triangle.surface == Triangle::none;
+        const std::uint32_t number = 2 * i + (is_plain ? 0 : 1);
+        for_each_tile(triangle, [&](std::size_t tile) { batch.by_tile[batch.tile_first[tile]++] = number; });
     }
     // Each place has moved to the beginning of the next tile.
     for (std::size_t tile = tiles; tile > 0; --tile) { batch.tile_first[tile] = batch.tile_first[tile - 1]; }
@@ -267,9 +270,15 @@ void TriangleBinner::bin(Batch& batch) const {
 void TriangleBinner::append(const Batch& batch, int tile, std::vector<TileTriangle>& list) const {
     const auto i = static_cast<std::size_t>(tile);
     for (std::uint32_t k = batch.tile_first[i]; k < batch.tile_first[i + 1]; ++k) {
-        const Triangle& triangle = batch.list.triangles[batch.by_tile[k]];
-        list.push_back({&triangle, triangle.extra == Triangle::none ? nullptr : &batch.list.extras[triangle.extra],
-            triangle.surface == Triangle::none ? nullptr : &batch.list.surfaces[triangle.surface]});
+        const std::uint32_t number = batch.by_tile[k];
+        TileTriangle one{.triangle = &batch.list.triangles[number / 2]};
+        if (number % 2 != 0) {
+            const std::uint32_t extra = one.triangle->extra;
+            const std::uint32_t surface = one.triangle->surface;
+            if (extra != Triangle::none) { one.extra = &batch.list.extras[extra]; }
+            if (surface != Triangle::none) { one.surface = &batch.list.surfaces[surface]; }
+        }
+        list.push_back(one);
     }
 }
 

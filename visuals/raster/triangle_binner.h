@@ -55,7 +55,9 @@ private:
         std::size_t end = 0;
         TriangleList list;
         std::vector<std::uint32_t> tile_first; ///< for each tile, and one more
-        std::vector<std::uint32_t> by_tile;    ///< indices of triangles
+        /// Twice the indices of triangles, and one where a triangle has an extra or a surface: of the others nothing is
+        /// read, which lie far apart, until they are painted.
+        std::vector<std::uint32_t> by_tile;
     };
 
     void make_batches();
