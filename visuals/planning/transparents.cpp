@@ -242,8 +242,8 @@ struct DiscRing {
 };
 
 /// Blades are dark and cover a larger share near the hub; tips are painted in light colours.
-constexpr std::array disc_rings{DiscRing{0.0, 0.4, 0.16F}, DiscRing{0.35, 0.26, 0.2F}, DiscRing{0.92, 0.2, 0.24F},
-    DiscRing{0.96, 0.24, 0.62F}, DiscRing{1.0, 0.0, 0.62F}};
+constexpr std::array disc_rings{
+    DiscRing{0.0, 0.34, 0.16F}, DiscRing{0.92, 0.2, 0.24F}, DiscRing{0.96, 0.24, 0.62F}, DiscRing{1.0, 0.0, 0.62F}};
 
 /// How much more than seen along its axis a disc covers where the line of sight meets it at an angle of this sine: its
 /// blades have a thickness, about this share of their chord with their pitch.
