@@ -9,6 +9,7 @@
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
 
 #include <algorithm>
 #include <array>
@@ -466,10 +467,73 @@ std::vector<OpacityRun> opacity_runs_of(const models::polygons::PolygonModel& mo
 
 /// Slower rotors are seen as they stand.
 constexpr double disc_turns_per_s = 3.0;
-/// Blades reach beyond this share of a disc's radius; what does not is the hub.
-constexpr double blade_root = 0.3;
-/// Parts whose blades cover more than this share of their circle, as fans of jets and wheels, are drawn as they stand.
+/// What covers a larger share of a circle about its axis is no blade there: a spinner inside, a fan of a jet further
+/// out.
 constexpr double max_solidity = 0.5;
+
+/// What covers a disc, seen along its axis.
+class DiscCoverage {
+public:
+    DiscCoverage(const models::polygons::Pivot& axis, double radius_m) : axis_(axis), radius_m_(radius_m) {}
+
+    /// Adds a convex polygon, body axes.
+    void add(std::span<const glm::dvec3> corners_m) {
+        flat_.clear();
+        for (const glm::dvec3& corner_m : corners_m) {
+            const glm::dvec3 off_m = corner_m - axis_.point_m;
+            flat_.emplace_back(glm::dot(off_m, right_), glm::dot(off_m, up_));
+        }
+        double twice_area_m2 = 0.0;
+        for (std::size_t i = 2; i < flat_.size(); ++i) {
+            twice_area_m2 += cross(flat_[i - 1] - flat_[0], flat_[i] - flat_[0]);
+        }
+        for (std::size_t circle = 0; circle < circles && twice_area_m2 != 0.0; ++circle) {
+            const double at_m = radius_m_ * (static_cast<double>(circle) + 0.5) / circles;
+            for (std::size_t direction = 0; direction < directions; ++direction) {
+                const double turn = 2.0 * pi * (static_cast<double>(direction) + 0.5) / directions;
+                bool& covered = covered_[circle][direction];
+                covered = covered || holds(at_m * glm::dvec2(std::cos(turn), std::sin(turn)), twice_area_m2);
+            }
+        }
+    }
+
+    /// The radius of a hub: of what covers most of each circle about the axis, and its corners; 0 without one. Nothing
+    /// where most of the disc is covered.
+    std::optional<double> hub_radius_m() const {
+        std::size_t hub = 0; // circles
+        std::size_t all = 0; // places that are covered
+        for (std::size_t circle = 0; circle < circles; ++circle) {
+            const auto count = static_cast<std::size_t>(std::ranges::count(covered_[circle], true));
+            if (static_cast<double>(count) > max_solidity * directions) { hub = circle + 1; }
+            all += count;
+        }
+        if (static_cast<double>(all) > max_solidity * circles * directions) { return std::nullopt; }
+        constexpr double corners = 1.25; // of a hub of few sides, over the radius of its sides
+        return hub == 0 ? 0.0 : radius_m_ * (corners * static_cast<double>(hub) + 1.0) / circles;
+    }
+
+private:
+    static constexpr std::size_t circles = 40;
+    static constexpr std::size_t directions = 64;
+
+    static double cross(const glm::dvec2& a, const glm::dvec2& b) { return a.x * b.y - a.y * b.x; }
+
+    bool holds(const glm::dvec2& place_m, double twice_area_m2) const {
+        for (std::size_t i = 0; i < flat_.size(); ++i) {
+            const glm::dvec2& from = flat_[i];
+            if (twice_area_m2 * cross(flat_[(i + 1) % flat_.size()] - from, place_m - from) < 0.0) { return false; }
+        }
+        return true;
+    }
+
+    const models::polygons::Pivot& axis_;
+    double radius_m_;
+    glm::dvec3 right_ = glm::normalize(
+        glm::cross(axis_.axis, std::abs(axis_.axis.x) < 0.7 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0)));
+    glm::dvec3 up_ = glm::cross(axis_.axis, right_);
+    std::vector<glm::dvec2> flat_;
+    std::array<std::array<bool, directions>, circles> covered_{};
+};
 
 /// Finds the discs of a model.
 class DiscFinder {
@@ -548,22 +612,30 @@ private:
 
     void add(const Place& place, std::vector<RotorDisc>& discs) {
         const models::polygons::Pivot& axis = model_.pivots[place.pivots.front()];
-        RotorDisc disc{.pivots = place.pivots, .root_m = blade_root * place.radius_m, .sides = {}};
-        std::vector<std::uint32_t> blades;
-        std::array<double, 2> areas_m2{}; // seen from each side
+        std::vector<std::uint32_t> polygons;
         for (std::uint32_t polygon = 0; polygon < model_.polygons.size(); ++polygon) {
             const auto pivot = models::polygons::pivot_of(model_, polygon);
-            const Corner tip = outermost(axis, polygon);
-            if (!pivot || std::ranges::find(place.pivots, *pivot) == place.pivots.end() ||
-                tip.radius_m < blade_root * place.radius_m) {
-                continue;
-            }
-            blades.push_back(polygon);
+            if (pivot && std::ranges::find(place.pivots, *pivot) != place.pivots.end()) { polygons.push_back(polygon); }
+        }
+        DiscCoverage coverage(axis, place.radius_m);
+        std::vector<glm::dvec3> corners_m;
+        for (const std::uint32_t polygon : polygons) {
+            corners_m.clear();
             for (const std::uint32_t vertex : model_.corners(polygon)) {
-                disc.root_m = std::min(disc.root_m, corner_at(axis, vertex).radius_m);
+                corners_m.push_back(model_.vertices_m[vertex]);
             }
+            coverage.add(corners_m);
+        }
+        const std::optional<double> hub_m = coverage.hub_radius_m();
+        if (!hub_m) { return; }
+        const auto is_blade = [&](std::uint32_t polygon) { return outermost(axis, polygon).radius_m > *hub_m; };
+        const bool has_hub = !std::ranges::all_of(polygons, is_blade);
+        RotorDisc disc{.pivots = place.pivots, .root_m = has_hub ? *hub_m : 0.0, .sides = {}};
+        for (const std::uint32_t polygon : polygons) {
+            if (!is_blade(polygon)) { continue; }
+            disc_of_polygon_[polygon] = static_cast<std::uint32_t>(discs.size());
+            const Corner tip = outermost(axis, polygon);
             const double facing = glm::dot(models::polygons::normal_of(model_, polygon), axis.axis);
-            areas_m2[facing > 0.0 ? 0 : 1] += std::abs(facing) * area_m2(polygon);
             for (std::size_t side = 0; side < 2; ++side) {
                 constexpr double perpendicular = 1.0 - 1e-9; // Others are seen from both sides as they turn.
                 RotorDisc::Side& seen = disc.sides[side];
@@ -576,23 +648,7 @@ private:
             disc.sides[side] = disc.sides[1 - side];
             disc.sides[side].polygon = models::none;
         }
-        const double solidity = std::max(areas_m2[0], areas_m2[1]) / (pi * place.radius_m * place.radius_m);
-        if (solidity > max_solidity) { return; }
-        for (const std::uint32_t polygon : blades) {
-            disc_of_polygon_[polygon] = static_cast<std::uint32_t>(discs.size());
-        }
         discs.push_back(std::move(disc));
-    }
-
-    double area_m2(std::uint32_t polygon) const {
-        const auto corners = model_.corners(polygon);
-        const glm::dvec3& first_m = model_.vertices_m[corners[0]];
-        glm::dvec3 twice_m2(0.0);
-        for (std::size_t i = 2; i < corners.size(); ++i) {
-            twice_m2 +=
-                glm::cross(model_.vertices_m[corners[i - 1]] - first_m, model_.vertices_m[corners[i]] - first_m);
-        }
-        return 0.5 * glm::length(twice_m2);
     }
 
     const models::polygons::PolygonModel& model_;
@@ -702,17 +758,34 @@ scene::IndexRange range_behind(std::uint32_t first, std::span<const std::uint32_
     return {first, count, static_cast<int>(count / 3)};
 }
 
+bool turns(const RotorDisc& disc, const MovingPartMesh& part) {
+    return part.pivot && std::ranges::find(disc.pivots, *part.pivot) != disc.pivots.end();
+}
+
+/// RotorDisc::root_m with parts that are meshes: without a hub 0, where they cover most of the disc all of it.
+double hub_radius_m(const AircraftModel& model, const RotorDisc& disc, std::span<const MovingPartMesh> parts) {
+    const double radius_m = std::max(disc.sides[0].radius_m, disc.sides[1].radius_m);
+    DiscCoverage coverage(model.polygons.pivots[disc.pivots.front()], radius_m);
+    for (const MovingPartMesh& part : parts) {
+        if (!turns(disc, part)) { continue; }
+        for (const models::Triangle& triangle : part.mesh->triangles) {
+            const auto& places_m = part.mesh->vertices_m;
+            coverage.add(std::array{places_m[triangle[0]], places_m[triangle[1]], places_m[triangle[2]]});
+        }
+    }
+    return coverage.hub_radius_m().value_or(radius_m);
+}
+
 /// Moves the triangles of a disc's blades from the index buffer, from `first` on, to `blades`.
 void take_blades(AircraftModel& model, const RotorDisc& disc, std::uint32_t first, std::vector<std::uint32_t>& blades) {
     const models::polygons::Pivot& axis = model.polygons.pivots[disc.pivots.front()];
-    const double root_m = blade_root * std::max(disc.sides[0].radius_m, disc.sides[1].radius_m);
     std::vector<std::uint32_t>& indices = model.buffers.indices;
     std::size_t kept = first;
     for (std::size_t i = first; i < indices.size(); i += 3) {
         const std::array corners{indices[i], indices[i + 1], indices[i + 2]};
         const bool is_blade = std::ranges::any_of(corners, [&](std::uint32_t corner) {
             const glm::dvec3 off_m = glm::dvec3(model.buffers.vertices[corner].position_m) - axis.point_m;
-            return glm::length(off_m - glm::dot(off_m, axis.axis) * axis.axis) >= root_m;
+            return glm::length(off_m - glm::dot(off_m, axis.axis) * axis.axis) > disc.root_m;
         });
         if (is_blade) {
             blades.insert(blades.end(), corners.begin(), corners.end());
@@ -730,13 +803,14 @@ void add_moving_parts(AircraftModel& model, std::span<const MovingPartMesh> part
     assert(model.progressive != nullptr && model.turning.index_count == 0);
     model.turning.first_index = static_cast<std::uint32_t>(model.buffers.indices.size());
     std::vector<std::vector<std::uint32_t>> blades(model.discs.size());
+    for (RotorDisc& disc : model.discs) { disc.root_m = hub_radius_m(model, disc, parts); }
     std::size_t next = model.polygons.pivots.size();
     for (const MovingPartMesh& part : parts) {
         const std::size_t number = part.pivot ? *part.pivot : next++;
         const std::size_t first = model.buffers.vertices.size();
         const MeshLevel level = append_level(model.buffers, {part.mesh, 0.0});
-        for (std::size_t disc = 0; disc < blades.size() && part.pivot; ++disc) {
-            if (std::ranges::find(model.discs[disc].pivots, *part.pivot) != model.discs[disc].pivots.end()) {
+        for (std::size_t disc = 0; disc < blades.size(); ++disc) {
+            if (turns(model.discs[disc], part)) {
                 take_blades(model, model.discs[disc], level.range.first_index, blades[disc]);
             }
         }

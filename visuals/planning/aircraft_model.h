@@ -69,7 +69,7 @@ struct RotorDisc {
     /// Indices into PolygonModel::pivots of all that turn in this place, blade by blade perhaps; the first one's axis
     /// is the disc's.
     std::vector<std::uint32_t> pivots;
-    double root_m = 0.0;           ///< the radius at which the blades begin
+    double root_m = 0.0;           ///< the radius at which the disc begins; polygons that reach beyond it are blades
     std::array<Side, 2> sides;     ///< seen from the side to which the axis points, and from the other one
     scene::IndexRange blades = {}; ///< of AircraftModel::turning; empty on models without it
 };

@@ -247,7 +247,8 @@ TEST_CASE("fast rotors are discs in place of their blades; slow and held ones an
     CHECK(painted(jet(), {-60.0, 3.0, -5.0}, 1.0, {}, usual).after == 0); // plumes need the setting
 }
 
-TEST_CASE("what fills its circle, as the fan of a jet, is drawn as it stands, and so is a hub between blades") {
+TEST_CASE(
+    "what fills its circle, as the fan of a jet, is drawn as it stands, and so is a hub without the roots of blades") {
     PolygonModel fan = box_model({4.0, 0.8, 1.0});
     add_part(fan, "fan", {4.5, 0.0, 0.0}, {0.1, 0.7, 0.7});
     fan.pivots.push_back({1, {4.5, 0.0, 0.0}, {1.0, 0.0, 0.0}, 80.0});
@@ -255,10 +256,11 @@ TEST_CASE("what fills its circle, as the fan of a jet, is drawn as it stands, an
     CHECK(painted(fan, ahead_m).discs == 0);
     CHECK(painted(fan, ahead_m).polygons == 12);
     PolygonModel with_hub = helicopter(-1.6);
-    add_part(with_hub, "hub", {0.0, 0.0, -1.7}, {0.3, 0.3, 0.1});
-    for (std::size_t i = 12; i < 18; ++i) { with_hub.polygons[i].part = 1; } // one part with the blades
+    add_part(with_hub, "hub", {0.0, 0.0, -1.7}, {0.4, 0.4, 0.1});
+    add_part(with_hub, "root of a blade", {0.7, 0.0, -1.6}, {0.4, 0.05, 0.05}); // no farther out than a large hub
+    for (std::size_t i = 12; i < 24; ++i) { with_hub.polygons[i].part = 1; }    // one part with the blades
     CHECK(painted(with_hub, {-20.0, 3.0, -15.0}).discs > 0);
-    CHECK(painted(with_hub, {-20.0, 3.0, -15.0}).polygons == 12);
+    CHECK(painted(with_hub, {-20.0, 3.0, -15.0}).polygons == 6 + 7); // body, hub and the end within it
 }
 
 TEST_CASE("blades and spinner that turn in one place have one disc, two rotors one each") {

@@ -510,12 +510,13 @@ TEST_CASE("blades that turn fast are not drawn by depth either, but their disc i
     }
     planning::AircraftModel model = convex_aircraft(polygons);
     planning::add_progressive(model, hierarchy(), 0.2);
-    models::TriangleMesh propeller; // a blade of two triangles and a hub of one
-    propeller.vertices_m = {{5, -0.2, 0.5}, {5, 0.2, 0.5}, {5, 0, 6}, {5.5, 0, 0}};
-    propeller.triangles = {{0, 1, 2}, {0, 1, 3}, {0, 2, 1}};
+    models::TriangleMesh propeller; // a blade of two triangles, and a hub of two between them
+    propeller.vertices_m = {{5, -0.2, 0.5}, {5, 0.2, 0.5}, {5, 0, 6}, {5.5, -0.5, -0.5}, {5.5, 0.5, -0.5},
+        {5.5, 0.5, 0.5}, {5.5, -0.5, 0.5}};
+    propeller.triangles = {{0, 1, 2}, {3, 4, 5}, {0, 2, 1}, {3, 5, 6}};
     const std::array<planning::MovingPartMesh, 1> parts{{{&propeller, 0, {}}}};
     planning::add_moving_parts(model, parts);
-    CHECK(model.turning.polygons == 1);
+    CHECK(model.turning.polygons == 2);
     planning::Scene scene = small_scene({std::move(model)}, {0});
     scene::Settings settings = plain_settings();
     const std::vector<planning::ArticulatedPart> held{{0, 0}};
@@ -528,7 +529,7 @@ TEST_CASE("blades that turn fast are not drawn by depth either, but their disc i
         const scene::FramePlan& plan = planner.plan(request).plan;
         std::uint32_t indices = 0;
         for (const scene::AircraftDraw& draw : plan.aircraft) { indices += draw.index_count; }
-        CHECK(indices == (is_held ? 9 : 3));
+        CHECK(indices == (is_held ? 12 : 6));
         CHECK((plan.steps.back().content == scene::PaintStep::Content::Transparent) == !is_held);
         CHECK(plan.steps.back().depth == scene::DepthUse::Nearest);
     }
