@@ -253,9 +253,10 @@ double oblique_coverage(double alpha, double sine) {
     return std::min(alpha * (1.0 + thickness * (1.0 / std::max(sine, 0.01) - 1.0)), max_alpha);
 }
 
-/// The segments of a circle whose chords are at most a pixel from it; `radius_px` is above 0.
+/// The segments of a circle whose chords are at most 1.5 pixels from it, which its faint edge hides; `radius_px` is
+/// above 0.
 int segments_of(double radius_px) {
-    constexpr double max_error_px = 1.0;
+    constexpr double max_error_px = 1.5;
     const double half_rad = std::acos(1.0 - std::min(max_error_px / radius_px, 0.5));
     return std::clamp(static_cast<int>(std::ceil(pi / half_rad)), 8, 64);
 }
