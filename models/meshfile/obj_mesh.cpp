@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 #include <map>
 #include <optional>
+#include <utility>
 
 namespace octant::models::meshfile {
 
@@ -151,7 +152,11 @@ private:
         if (used != materials_.end()) { return material_ = used->second; }
         const auto known = read_materials_.find(*material_name_);
         Material made = known == read_materials_.end() ? Material{.name = *material_name_} : known->second;
-        made.is_mirror = false; // of meshes only what is transparent counts as glass
+        if (std::exchange(made.is_mirror, false) && !is_transparent(made)) { // of meshes only that counts as glass
+            mesh_.add_note(
+                fmt::format("{}: material {} mirrors (illum 5 or 7) and is opaque: on a mesh it does not mirror",
+                    path_.string(), printable(made.name)));
+        }
         if (picture_.picture != BakedPictures::none && made.colour == glm::vec3(0.0F)) {
             made.colour = glm::vec3(1.0F); // written by programs that mean the picture alone
         }
@@ -187,6 +192,7 @@ private:
         for (const auto& [material, picture] : read.emissive_pictures) {
             emissive_pictures_.insert_or_assign(material, picture);
         }
+        for (const std::string& note : read.notes) { mesh_.add_note(note); }
         for (const auto& [kind, count] : read.undrawn_pictures) {
             for (int i = 0; i < count; ++i) { mesh_.add_undrawn_picture(kind); }
         }

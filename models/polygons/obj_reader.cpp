@@ -33,7 +33,7 @@ constexpr std::size_t largest_mtl_bytes = std::size_t{16} << 20U;
 
 class MtlReading {
 public:
-    MtlReading(const std::filesystem::path& path, std::string_view text) : text_(path, text) {}
+    MtlReading(const std::filesystem::path& path, std::string_view text) : path_(path), text_(path, text) {}
 
     MtlFile read() {
         while (text_.next_line()) {
@@ -43,27 +43,32 @@ public:
             } else if (keyword == "Kd") {
                 set_colour();
             } else if (keyword == "map_Kd" && !text_.words().empty()) {
+                require_material(keyword);
                 made_.pictures.emplace_back(material_, picture());
             } else if (keyword == "map_Ke" && !text_.words().empty()) {
+                require_material(keyword);
                 made_.emissive_pictures.emplace_back(material_, picture().file);
                 ++made_.undrawn_pictures["glow"];
             } else if (keyword == "map_Bump" || keyword == "map_bump" || keyword == "bump" || keyword == "norm") {
                 ++made_.undrawn_pictures["normals"];
             } else if (keyword == "map_Ks" || keyword == "map_Ns") {
                 ++made_.undrawn_pictures["highlights"];
-            } else if ((keyword == "d" || keyword == "Tr") && text_.words().size() == 1) {
-                const auto value = text_.take_number();
-                if (!value || *value < 0.0 || *value > 1.0) { continue; }
-                set_opacity(*value, keyword == "d");
-            } else if (keyword == "illum" && !made_.materials.empty() && text_.words().size() == 1) {
-                const std::string_view model = text_.words().front();
-                made_.materials.back().is_mirror = model == "5" || model == "7";
+            } else if (keyword == "map_d") {
+                ++made_.undrawn_pictures["opacity"];
+            } else if (keyword == "d" || keyword == "Tr") {
+                take_opacity(keyword);
+            } else if (keyword == "illum") {
+                take_illumination();
             }
         }
         return std::move(made_);
     }
 
 private:
+    void require_material(std::string_view keyword) const {
+        if (made_.materials.empty()) { text_.refuse(fmt::format("newmtl before {}", keyword), std::string(keyword)); }
+    }
+
     /// What follows map_Kd: options that begin with a dash, each with its values, then a name that may have blanks.
     MtlPicture picture() {
         MtlPicture made;
@@ -71,6 +76,11 @@ private:
         std::size_t at = 0;
         while (at + 1 < words.size() && words[at].starts_with('-')) {
             const std::string_view option = words[at++];
+            constexpr std::array known{"-blendu", "-blendv", "-boost", "-bm", "-cc", "-clamp", "-imfchan", "-mm", "-o",
+                "-s", "-t", "-texres", "-type"};
+            if (std::ranges::find(known, option) == known.end()) {
+                text_.refuse("an option of MTL pictures", in_quotes(option));
+            }
             made.is_clamped = option == "-clamp" ? words[at] == "on" : made.is_clamped;
             const bool is_vector = option == "-o" || option == "-s" || option == "-t";
             made.is_moved = made.is_moved || is_vector;
@@ -94,7 +104,7 @@ private:
     }
 
     void set_colour() {
-        if (made_.materials.empty()) { text_.refuse("newmtl before Kd", "Kd"); }
+        require_material("Kd");
         bool is_good = text_.words().size() == 3;
         for (int part = 0; is_good && part < 3; ++part) {
             const double value = text_.take_number().value_or(-1.0);
@@ -104,18 +114,44 @@ private:
         if (!is_good) { text_.refuse("Kd and three numbers 0..1", in_quotes(text_.line())); }
     }
 
-    /// By `d`, which takes precedence, or by `Tr`.
-    void set_opacity(double value, bool is_d) {
-        if (made_.materials.empty() || (!is_d && (has_d_ || value == 1.0))) { return; }
+    /// `d`, which takes precedence, or `Tr`. Forms that are not read leave the material as it is, with a note.
+    void take_opacity(std::string_view keyword) {
+        require_material(keyword);
+        const bool is_d = keyword == "d";
+        const bool is_halo = is_d && text_.skip("-halo");
+        const std::size_t numbers = text_.words().size();
+        const double value = text_.number(fmt::format("{} and a number", keyword));
+        if (is_halo || numbers != 1 || value < 0.0 || value > 1.0 || (!is_d && value == 1.0 && !has_d_)) {
+            note_opacity();
+            return;
+        }
+        if (!is_d && has_d_) { return; }
         made_.materials.back().opacity = static_cast<float>(is_d ? value : 1.0 - value);
         has_d_ = has_d_ || is_d;
     }
 
+    /// Only about the first line of a file: exporters write the same form for all materials.
+    void note_opacity() {
+        if (std::exchange(has_note_, true)) { return; }
+        made_.notes.push_back(fmt::format("{}:{}: '{}' is not read as an opacity, nor are others like it",
+            path_.string(), text_.line_number(), printable(std::string(text_.line()))));
+    }
+
+    void take_illumination() {
+        require_material("illum");
+        constexpr long last_model = 10;
+        const long model = text_.integer("illum and a number", 0, last_model);
+        if (!text_.words().empty()) { text_.refuse("the end of the line", in_quotes(text_.words().front())); }
+        made_.materials.back().is_mirror = model == 5 || model == 7;
+    }
+
+    std::filesystem::path path_;
     TextScanner text_;
     MtlFile made_;
     std::set<std::string> names_;
     std::string material_; ///< current
     bool has_d_ = false;   ///< of the current material
+    bool has_note_ = false;
 };
 
 } // namespace
@@ -614,6 +650,7 @@ private:
         const MtlFile read = read_mtl(file);
         for (const Material& material : read.materials) { read_materials_.insert_or_assign(material.name, material); }
         for (const auto& [material, picture] : read.pictures) { pictures_.insert_or_assign(material, picture); }
+        model_.notes.insert(model_.notes.end(), read.notes.begin(), read.notes.end());
         has_material_file_ = true;
         return true;
     }

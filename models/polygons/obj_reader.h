@@ -32,13 +32,15 @@ struct MtlFile {
     std::vector<Material> materials;
     std::vector<std::pair<std::string, MtlPicture>> pictures;           ///< material and `map_Kd`, in file order
     std::vector<std::pair<std::string, std::string>> emissive_pictures; ///< material and the file of `map_Ke`
-    std::map<std::string, int> undrawn_pictures; ///< how many, by what they are for: normals, highlights, glow
+    std::map<std::string, int> undrawn_pictures; ///< how many, by what they are for: normals, highlights, glow, opacity
+    std::vector<std::string> notes;              ///< what was left out, "file:line: ..."
 };
 
-/// Reads an MTL file. A material without Kd has the default colour. Ignores other lines, opacities outside 0..1 and a
-/// Tr of 1, whose meaning differs between programs. Throws Error "file:line: expected ..., got ..." for a Kd that is
-/// not three numbers 0..1 or that comes before any newmtl, for a name that is missing or comes twice, and for a file
-/// that is not text.
+/// Reads an MTL file. A material without Kd has the default colour. Ignores other lines. Leaves out, with one note a
+/// file, opacities outside 0..1, of several numbers or with -halo, and a Tr of 1, whose meaning differs between
+/// programs. Throws Error "file:line: expected ..., got ..." for a Kd that is not three numbers 0..1, a d or Tr without
+/// a number, an illum that is not a whole number 0..10, an unknown option of a picture, any of these before the first
+/// newmtl, for a name that is missing or comes twice, and for a file that is not text.
 MtlFile read_mtl(const std::filesystem::path& path);
 
 /// Reads a Wavefront OBJ file of polygons, coordinates in metres in the file's `axes`. Concave and bent polygons are

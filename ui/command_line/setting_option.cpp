@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -32,6 +33,13 @@ Option option_of(const SettingInfo& info, Value& value) {
 Option option_of(const SettingInfo& info, bool& value) {
     return with_shown_default(
         value ? "true" : "false", flag(fmt::format("--{0},!--no-{0}", info.name), std::string(info.meaning), value));
+}
+
+Option option_of(const SettingInfo& info, std::optional<bool>& value) {
+    Option option{.name = fmt::format("--{0},!--no-{0}", info.name), .meaning = std::string(info.meaning)};
+    option.arity = Arity::None;
+    option.read = [&value](const Words& words) { value = words.front() == "true"; };
+    return option;
 }
 
 Option option_of(const SettingInfo& info, std::vector<std::string>& values) {

@@ -10,7 +10,9 @@
 #include "ui/command_line/command_line.h"
 #include "ui/command_line/setting_option.h"
 #include "ui/commands/commands.h"
+#include "ui/settings/settings.h"
 #include "ui/settings/settings_text.h"
+#include "ui/world/aircraft_loader.h"
 #include "ui/world/order_model.h"
 #include "visuals/certificate/order_certificate.h"
 #include "visuals/draworder/draw_order.h"
@@ -75,8 +77,8 @@ struct DrawOrderOptions : base::OutputOptions {
     std::string axes = "right,up,back";
     std::string method = "exact"; ///< one of method_names
     visuals::draworder::OrderOptions order;
-    double min_distance_radii = 2.0;  ///< of cells
-    std::optional<std::string> cache; ///< folder of kept orders
+    double min_distance_radii = 2.0; ///< of cells
+    std::string cache{settings::no_order_cache};
     bool table = false;
     std::string export_file;
     std::string export_model;
@@ -152,7 +154,8 @@ void add_order_options(std::vector<Option>& table, DrawOrderOptions& options) {
             hidden(value_option({"order-seconds", "SECONDS",
                                     "approximate time limit of the search; then polygons are split", 0.001, 3600},
                 options.order.seconds)),
-            text_option("--order-cache", "DIR", "folder where painting orders are cached", options.cache),
+            text_option("--order-cache", "DIR",
+                "cache of painting orders: a folder, user (octant/orders in the user cache) or none", options.cache),
             value_option(
                 {"min-distance", "RADII",
                     "cells: orders are exact for eyes with |x|+|y|+|z| of at least this many model radii", 1, 1000},
@@ -337,7 +340,9 @@ ordercache::CachedOrder find_or_read_orders(
         return {.ordered = orderstudy::ordered_by_splitting(std::move(model), order), .file = {}, .notes = {}};
     }
     order.method = options.method == "paper" ? draworder::OrderMethod::Paper : draworder::OrderMethod::Exact;
-    if (options.cache) { return ordercache::cached_order(*options.cache, std::move(model), order); }
+    if (const auto folder = world::order_cache_folder(options.cache)) {
+        return ordercache::cached_order(*folder, std::move(model), order);
+    }
     return {.ordered = draworder::ordered(std::move(model), order), .file = {}, .notes = {}};
 }
 
@@ -380,7 +385,7 @@ PreparedOrder prepare_order(const DrawOrderOptions& options, JsonValue& results)
     const double build_ms = percents.finish();
     for (const std::string& note : cached.notes) { base::print_note(options.quiet, "note: " + note); }
     add_order_results(results, ordered, polygons);
-    if (options.cache) { results["from_cache"] = cached.was_cached; }
+    if (options.cache != settings::no_order_cache) { results["from_cache"] = cached.was_cached; }
     results["build_ms"] = build_ms;
     for (const std::string& note : ordered.notes) { base::print_note(options.quiet, "note: " + note); }
     if (options.json) {
@@ -507,7 +512,7 @@ void draw_order(const DrawOrderOptions& options) {
         }
         replace_by_program({"octant-verify", options.verify, options.json ? "--json" : "--quiet"});
     }
-    if (options.cache) { ordercache::make_cache_folder(*options.cache); }
+    world::order_cache_folder(options.cache); // refused before the work
     JsonValue results;
     PreparedOrder work = prepare_order(options, results);
     if (!options.certificate.empty()) { write_certificate(options, work, results); }

@@ -33,7 +33,7 @@ DrawnScenes drawn_scenes(const planning::Scene& scene, const scene::Settings& se
     scenes.alone_settings.air.sky = false;
     scenes.alone_settings.air.clouds = 0.0;
     scenes.alone_settings.surface.shadows = false;
-    scenes.alone_settings.surface.effects = false;
+    if (settings.surface.effects == true) { scenes.alone_settings.surface.effects.reset(); } // the same solid surfaces
     scenes.alone_settings.view.path_ribbon = false;
     return scenes;
 }

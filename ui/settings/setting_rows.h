@@ -260,7 +260,8 @@ inline constexpr std::tuple surface{
             "octant: painting order without depth buffer; depth-buffer; back-face: back faces removed, file order"},
         {.group = Surface, .change = World}),
     setting<&RunSettings::surface, &SurfaceSettings::order_method>(
-        {"order-method", "METHOD", "painting order: exact (for every eye point) or paper (8 octants as printed)"},
+        {"order-method", "METHOD",
+            "painting order: exact (for every eye point) or paper (8 octants as printed; no rotor discs)"},
         {.group = Surface, .change = World}),
     setting<&RunSettings::surface, &SurfaceSettings::order_seconds>(
         {"order-seconds", "SECONDS", "exact: approximate time limit of the search; after it polygons are split", 0.001,
@@ -273,7 +274,9 @@ inline constexpr std::tuple surface{
     setting<&RunSettings::surface, &SurfaceSettings::shadows>(
         {"shadows", "", "shadows of aircraft, trees and houses on the ground"}, {.group = Surface, .change = Picture}),
     setting<&RunSettings::surface, &SurfaceSettings::effects>(
-        {"effects", "", "exhaust, afterburners and wingtip vapour"}, {.group = Surface, .change = Picture}),
+        {"effects", "",
+            "exhaust, afterburners and wingtip vapour; --no-effects: fast rotors have blades and are no discs [discs]"},
+        {.group = Surface, .change = Picture}),
     setting<&RunSettings::surface, &SurfaceSettings::aircraft_error_px>(
         {"aircraft-error-px", "PIXELS", "largest screen-space error of aircraft meshes", 0.01, 100.0},
         {.group = Surface, .change = Picture}),

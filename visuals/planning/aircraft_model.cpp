@@ -4,16 +4,19 @@
 #include "models/colour_vertex.h"
 #include "models/planar/planar_model.h"
 #include "models/polygons/polygon_model.h"
+#include "sim/base/units.h"
 #include "visuals/shading/vertex_normals.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
 
 #include <algorithm>
 #include <array>
 #include <cassert>
 #include <cmath>
 #include <cstddef>
+#include <functional>
 #include <iterator>
 #include <limits>
 #include <numeric>
@@ -439,46 +442,221 @@ std::vector<std::uint32_t> first_indices_of(
     return first;
 }
 
-/// Where the opacity changes in a list of a model's polygons; none where all are opaque.
-std::vector<OpacityRun> opacity_runs_of(
-    const models::polygons::PolygonModel& model, std::span<const std::uint32_t> list) {
+/// The runs of a list of a model's polygons; none where all are opaque and none is a blade.
+std::vector<OpacityRun> opacity_runs_of(const models::polygons::PolygonModel& model,
+    std::span<const std::uint32_t> list, std::span<const RotorDisc> discs = {},
+    std::span<const std::uint32_t> disc_of_polygon = {}) {
     std::vector<OpacityRun> runs;
-    bool is_any_transparent = false;
+    bool is_any_special = false;
     for (std::uint32_t i = 0; i < list.size(); ++i) {
         const models::Material& material = model.materials[model.polygons[list[i]].material];
-        const bool is_clear = is_transparent(material);
-        const float opacity = is_clear ? material.opacity : 1.0F;
-        is_any_transparent = is_any_transparent || is_clear;
-        if (runs.empty() || runs.back().opacity != opacity) { runs.push_back({i, opacity}); }
+        const float opacity = is_transparent(material) ? material.opacity : 1.0F;
+        OpacityRun run{i, opacity, discs.empty() ? models::none : disc_of_polygon[list[i]]};
+        for (std::size_t side = 0; side < 2 && run.disc != models::none; ++side) {
+            run.has_side[side] = discs[run.disc].sides[side].polygon == list[i];
+        }
+        is_any_special = is_any_special || opacity < 1.0F || run.disc != models::none;
+        if (!runs.empty()) { run.first = runs.back().first; }
+        if (runs.empty() || run != runs.back()) {
+            run.first = i;
+            runs.push_back(run);
+        }
     }
-    return is_any_transparent ? runs : std::vector<OpacityRun>();
+    return is_any_special ? runs : std::vector<OpacityRun>();
 }
+
+/// Slower rotors are seen as they stand.
+constexpr double disc_turns_per_s = 3.0;
+/// What covers a larger share of a circle about its axis is no blade there: a spinner inside, a fan of a jet further
+/// out.
+constexpr double max_solidity = 0.5;
+
+/// What covers a disc, seen along its axis.
+class DiscCoverage {
+public:
+    DiscCoverage(const models::polygons::Pivot& axis, double radius_m) : axis_(axis), radius_m_(radius_m) {}
+
+    /// Adds a convex polygon, body axes.
+    void add(std::span<const glm::dvec3> corners_m) {
+        flat_.clear();
+        for (const glm::dvec3& corner_m : corners_m) {
+            const glm::dvec3 off_m = corner_m - axis_.point_m;
+            flat_.emplace_back(glm::dot(off_m, right_), glm::dot(off_m, up_));
+        }
+        double twice_area_m2 = 0.0;
+        for (std::size_t i = 2; i < flat_.size(); ++i) {
+            twice_area_m2 += cross(flat_[i - 1] - flat_[0], flat_[i] - flat_[0]);
+        }
+        for (std::size_t circle = 0; circle < circles && twice_area_m2 != 0.0; ++circle) {
+            const double at_m = radius_m_ * (static_cast<double>(circle) + 0.5) / circles;
+            for (std::size_t direction = 0; direction < directions; ++direction) {
+                const double turn = 2.0 * pi * (static_cast<double>(direction) + 0.5) / directions;
+                bool& covered = covered_[circle][direction];
+                covered = covered || holds(at_m * glm::dvec2(std::cos(turn), std::sin(turn)), twice_area_m2);
+            }
+        }
+    }
+
+    /// The radius of a hub: of what covers most of each circle about the axis, and its corners; 0 without one. Nothing
+    /// where most of the disc is covered.
+    std::optional<double> hub_radius_m() const {
+        std::size_t hub = 0; // circles
+        std::size_t all = 0; // places that are covered
+        for (std::size_t circle = 0; circle < circles; ++circle) {
+            const auto count = static_cast<std::size_t>(std::ranges::count(covered_[circle], true));
+            if (static_cast<double>(count) > max_solidity * directions) { hub = circle + 1; }
+            all += count;
+        }
+        if (static_cast<double>(all) > max_solidity * circles * directions) { return std::nullopt; }
+        constexpr double corners = 1.25; // of a hub of few sides, over the radius of its sides
+        return hub == 0 ? 0.0 : radius_m_ * (corners * static_cast<double>(hub) + 1.0) / circles;
+    }
+
+private:
+    static constexpr std::size_t circles = 40;
+    static constexpr std::size_t directions = 64;
+
+    static double cross(const glm::dvec2& a, const glm::dvec2& b) { return a.x * b.y - a.y * b.x; }
+
+    bool holds(const glm::dvec2& place_m, double twice_area_m2) const {
+        for (std::size_t i = 0; i < flat_.size(); ++i) {
+            const glm::dvec2& from = flat_[i];
+            if (twice_area_m2 * cross(flat_[(i + 1) % flat_.size()] - from, place_m - from) < 0.0) { return false; }
+        }
+        return true;
+    }
+
+    const models::polygons::Pivot& axis_;
+    double radius_m_;
+    glm::dvec3 right_ = glm::normalize(
+        glm::cross(axis_.axis, std::abs(axis_.axis.x) < 0.7 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0)));
+    glm::dvec3 up_ = glm::cross(axis_.axis, right_);
+    std::vector<glm::dvec2> flat_;
+    std::array<std::array<bool, directions>, circles> covered_{};
+};
+
+/// Finds the discs of a model.
+class DiscFinder {
+public:
+    explicit DiscFinder(const models::polygons::PolygonModel& model)
+        : model_(model), disc_of_polygon_(model.polygons.size(), models::none) {}
+
+    /// Writes AircraftModel::discs and AircraftModel::disc_of_polygon.
+    void find(AircraftModel& out) {
+        find_places();
+        for (const Place& place : places_) { add(place, out.discs); }
+        if (!out.discs.empty()) { out.disc_of_polygon = std::move(disc_of_polygon_); }
+    }
+
+private:
+    /// What turns fast in one place, the largest part first.
+    struct Place {
+        std::vector<std::uint32_t> pivots;
+        glm::dvec3 centre_m{0.0};
+        double radius_m = 0.0;
+    };
+
+    struct Corner {
+        double radius_m = 0.0; ///< from the axis
+        double along_m = 0.0;  ///< along it
+    };
+
+    Corner corner_at(const models::polygons::Pivot& pivot, std::uint32_t vertex) const {
+        const glm::dvec3 off_m = model_.vertices_m[vertex] - pivot.point_m;
+        const double along_m = glm::dot(off_m, pivot.axis);
+        return {glm::length(off_m - along_m * pivot.axis), along_m};
+    }
+
+    /// The corner of a polygon that is farthest from the axis.
+    Corner outermost(const models::polygons::Pivot& pivot, std::size_t polygon) const {
+        Corner outermost;
+        for (const std::uint32_t vertex : model_.corners(polygon)) {
+            const Corner corner = corner_at(pivot, vertex);
+            if (corner.radius_m > outermost.radius_m) { outermost = corner; }
+        }
+        return outermost;
+    }
+
+    /// Blades and spinner may be parts of their own: what turns about one axis in one place has one disc.
+    void find_places() {
+        std::vector<Place> all;
+        for (std::uint32_t number = 0; number < model_.pivots.size(); ++number) {
+            const models::polygons::Pivot& pivot = model_.pivots[number];
+            if (std::abs(pivot.turns_per_s) < disc_turns_per_s) { continue; }
+            Corner farthest;
+            for (std::size_t polygon = 0; polygon < model_.polygons.size(); ++polygon) {
+                if (model_.polygons[polygon].part != pivot.part) { continue; }
+                const Corner corner = outermost(pivot, polygon);
+                if (corner.radius_m > farthest.radius_m) { farthest = corner; }
+            }
+            if (farthest.radius_m > 0.0) {
+                all.push_back({{number}, pivot.point_m + farthest.along_m * pivot.axis, farthest.radius_m});
+            }
+        }
+        std::ranges::stable_sort(all, std::ranges::greater(), &Place::radius_m);
+        for (const Place& place : all) {
+            constexpr double one_place = 0.15; // of the larger radius
+            const auto larger = std::ranges::find_if(places_, [&](const Place& other) {
+                return glm::distance(other.centre_m, place.centre_m) < one_place * other.radius_m &&
+                       std::abs(glm::dot(axis_of(other), axis_of(place))) > 0.99;
+            });
+            if (larger == places_.end()) {
+                places_.push_back(place);
+            } else {
+                larger->pivots.push_back(place.pivots.front());
+            }
+        }
+    }
+
+    const glm::dvec3& axis_of(const Place& place) const { return model_.pivots[place.pivots.front()].axis; }
+
+    void add(const Place& place, std::vector<RotorDisc>& discs) {
+        const models::polygons::Pivot& axis = model_.pivots[place.pivots.front()];
+        std::vector<std::uint32_t> polygons;
+        for (std::uint32_t polygon = 0; polygon < model_.polygons.size(); ++polygon) {
+            const auto pivot = models::polygons::pivot_of(model_, polygon);
+            if (pivot && std::ranges::find(place.pivots, *pivot) != place.pivots.end()) { polygons.push_back(polygon); }
+        }
+        DiscCoverage coverage(axis, place.radius_m);
+        std::vector<glm::dvec3> corners_m;
+        for (const std::uint32_t polygon : polygons) {
+            corners_m.clear();
+            for (const std::uint32_t vertex : model_.corners(polygon)) {
+                corners_m.push_back(model_.vertices_m[vertex]);
+            }
+            coverage.add(corners_m);
+        }
+        const std::optional<double> hub_m = coverage.hub_radius_m();
+        if (!hub_m) { return; }
+        const auto is_blade = [&](std::uint32_t polygon) { return outermost(axis, polygon).radius_m > *hub_m; };
+        const bool has_hub = !std::ranges::all_of(polygons, is_blade);
+        RotorDisc disc{.pivots = place.pivots, .root_m = has_hub ? *hub_m : 0.0, .sides = {}};
+        for (const std::uint32_t polygon : polygons) {
+            if (!is_blade(polygon)) { continue; }
+            disc_of_polygon_[polygon] = static_cast<std::uint32_t>(discs.size());
+            const Corner tip = outermost(axis, polygon);
+            const double facing = glm::dot(models::polygons::normal_of(model_, polygon), axis.axis);
+            for (std::size_t side = 0; side < 2; ++side) {
+                constexpr double perpendicular = 1.0 - 1e-9; // Others are seen from both sides as they turn.
+                RotorDisc::Side& seen = disc.sides[side];
+                if ((side == 0 ? facing : -facing) <= -perpendicular || tip.radius_m <= seen.radius_m) { continue; }
+                seen = {polygon, axis.point_m + tip.along_m * axis.axis, tip.radius_m};
+            }
+        }
+        for (std::size_t side = 0; side < 2; ++side) {
+            if (disc.sides[side].polygon != models::none) { continue; }
+            disc.sides[side] = disc.sides[1 - side];
+            disc.sides[side].polygon = models::none;
+        }
+        discs.push_back(std::move(disc));
+    }
+
+    const models::polygons::PolygonModel& model_;
+    std::vector<std::uint32_t> disc_of_polygon_;
+    std::vector<Place> places_;
+};
 
 } // namespace
-
-void append_ranges(const IndexedOrder& polygons, const glm::dvec3& eye_in_body_m, draworder::DrawOrder::Walk& walk,
-    std::vector<scene::IndexRange>& ranges) {
-    const auto add = [&](std::size_t first, std::size_t end, float opacity) {
-        const std::uint32_t index = polygons.first_indices[first];
-        ranges.push_back({index, polygons.first_indices[end] - index, static_cast<int>(end - first),
-            static_cast<std::uint32_t>(first), opacity});
-    };
-    const std::span<const OpacityRun> runs = polygons.opacity_runs;
-    for (const auto& range : polygons.order.ranges_of(eye_in_body_m, walk)) {
-        const std::size_t end = range.first + range.count;
-        if (runs.empty()) {
-            add(range.first, end, 1.0F);
-            continue;
-        }
-        auto run = std::ranges::upper_bound(runs, range.first, {}, &OpacityRun::first);
-        for (std::size_t first = range.first; first < end; ++run) {
-            const std::size_t run_end = run == runs.end() ? end : std::min<std::size_t>(run->first, end);
-            add(first, run_end, std::prev(run)->opacity);
-            first = run_end;
-            if (run == runs.end()) { break; }
-        }
-    }
-}
 
 AircraftModel aircraft_model(models::polygons::PolygonModel polygons, draworder::DrawOrder order,
     const glm::dvec3& eye_m, std::vector<glm::vec3> normals) {
@@ -494,12 +672,12 @@ AircraftModel aircraft_model(models::polygons::PolygonModel polygons, draworder:
     const double radius_m = models::polygons::radius_m(polygons);
     const AxisAlignedBox hull = model_bounds(polygons);
     scene::ModelBuffers buffers = maker.take();
-    std::vector<OpacityRun> opacity_runs = opacity_runs_of(polygons, order.polygons());
     std::vector<std::uint32_t> neighbours = neighbours_of(drawn, buffers.vertices);
     AircraftModel model{std::move(polygons), std::move(order), std::move(buffers), first_vertices_of(drawn),
         std::move(neighbours), std::move(first_indices), all, std::move(file_list), hull, {radius_m, eye_m},
         std::move(shaded), {}, nullptr, nullptr, {0.0}};
-    model.opacity_runs = std::move(opacity_runs);
+    DiscFinder(model.polygons).find(model);
+    model.opacity_runs = opacity_runs_of(model.polygons, model.order.polygons(), model.discs, model.disc_of_polygon);
     return model;
 }
 
@@ -574,18 +752,68 @@ AxisAlignedBox bounds_of_part(std::span<const scene::ModelVertex> vertices, cons
     return bounds;
 }
 
+/// The triangles of an index buffer from `first` on.
+scene::IndexRange range_behind(std::uint32_t first, std::span<const std::uint32_t> indices) {
+    const auto count = static_cast<std::uint32_t>(indices.size() - first);
+    return {first, count, static_cast<int>(count / 3)};
+}
+
+bool turns(const RotorDisc& disc, const MovingPartMesh& part) {
+    return part.pivot && std::ranges::find(disc.pivots, *part.pivot) != disc.pivots.end();
+}
+
+/// RotorDisc::root_m with parts that are meshes: without a hub 0, where they cover most of the disc all of it.
+double hub_radius_m(const AircraftModel& model, const RotorDisc& disc, std::span<const MovingPartMesh> parts) {
+    const double radius_m = std::max(disc.sides[0].radius_m, disc.sides[1].radius_m);
+    DiscCoverage coverage(model.polygons.pivots[disc.pivots.front()], radius_m);
+    for (const MovingPartMesh& part : parts) {
+        if (!turns(disc, part)) { continue; }
+        for (const models::Triangle& triangle : part.mesh->triangles) {
+            const auto& places_m = part.mesh->vertices_m;
+            coverage.add(std::array{places_m[triangle[0]], places_m[triangle[1]], places_m[triangle[2]]});
+        }
+    }
+    return coverage.hub_radius_m().value_or(radius_m);
+}
+
+/// Moves the triangles of a disc's blades from the index buffer, from `first` on, to `blades`.
+void take_blades(AircraftModel& model, const RotorDisc& disc, std::uint32_t first, std::vector<std::uint32_t>& blades) {
+    const models::polygons::Pivot& axis = model.polygons.pivots[disc.pivots.front()];
+    std::vector<std::uint32_t>& indices = model.buffers.indices;
+    std::size_t kept = first;
+    for (std::size_t i = first; i < indices.size(); i += 3) {
+        const std::array corners{indices[i], indices[i + 1], indices[i + 2]};
+        const bool is_blade = std::ranges::any_of(corners, [&](std::uint32_t corner) {
+            const glm::dvec3 off_m = glm::dvec3(model.buffers.vertices[corner].position_m) - axis.point_m;
+            return glm::length(off_m - glm::dot(off_m, axis.axis) * axis.axis) > disc.root_m;
+        });
+        if (is_blade) {
+            blades.insert(blades.end(), corners.begin(), corners.end());
+        } else {
+            std::ranges::copy(corners, indices.begin() + static_cast<std::ptrdiff_t>(kept));
+            kept += 3;
+        }
+    }
+    indices.resize(kept);
+}
+
 } // namespace
 
 void add_moving_parts(AircraftModel& model, std::span<const MovingPartMesh> parts) {
     assert(model.progressive != nullptr && model.turning.index_count == 0);
     model.turning.first_index = static_cast<std::uint32_t>(model.buffers.indices.size());
+    std::vector<std::vector<std::uint32_t>> blades(model.discs.size());
+    for (RotorDisc& disc : model.discs) { disc.root_m = hub_radius_m(model, disc, parts); }
     std::size_t next = model.polygons.pivots.size();
     for (const MovingPartMesh& part : parts) {
         const std::size_t number = part.pivot ? *part.pivot : next++;
         const std::size_t first = model.buffers.vertices.size();
         const MeshLevel level = append_level(model.buffers, {part.mesh, 0.0});
-        model.turning.index_count += level.range.index_count;
-        model.turning.polygons += level.range.polygons;
+        for (std::size_t disc = 0; disc < blades.size(); ++disc) {
+            if (turns(model.discs[disc], part)) {
+                take_blades(model, model.discs[disc], level.range.first_index, blades[disc]);
+            }
+        }
         const auto vertices = std::span(model.buffers.vertices).subspan(first);
         const models::polygons::Pivot* pivot = part.pivot ? &model.polygons.pivots[*part.pivot] : nullptr;
         for (scene::ModelVertex& vertex : vertices) {
@@ -607,6 +835,12 @@ void add_moving_parts(AircraftModel& model, std::span<const MovingPartMesh> part
                 include(model, glm::dvec3(placement * glm::dvec4(side(0), side(1), side(2), 1.0)));
             }
         }
+    }
+    model.turning = range_behind(model.turning.first_index, model.buffers.indices);
+    for (std::size_t disc = 0; disc < blades.size(); ++disc) {
+        const auto first = static_cast<std::uint32_t>(model.buffers.indices.size());
+        model.buffers.indices.insert(model.buffers.indices.end(), blades[disc].begin(), blades[disc].end());
+        model.discs[disc].blades = range_behind(first, model.buffers.indices);
     }
 }
 

@@ -15,6 +15,7 @@
 #include "visuals/shading/shaded_polygons.h"
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -55,10 +56,34 @@ int select_level(std::span<const double> errors_m, double max_m, int before);
 /// square to the x axis. The scales cover `limits`. Loading work.
 overlay::InstrumentLayout dials_of(const models::polygons::PolygonModel& cockpit, const sim::AircraftLimits& limits);
 
-/// Where the opacity of the polygons of a list changes.
+/// A rotor or propeller that turns so fast that it is seen as a disc in place of its blades. Body axes, metres.
+struct RotorDisc {
+    /// The disc as it is seen from one side of its plane. A polygon of the blades faces that side at every angle, and
+    /// the body that it sweeps holds the disc: in an order that holds at every angle the disc has that polygon's place.
+    struct Side {
+        std::uint32_t polygon = models::none; ///< none: no blade is seen from this side, where the disc is not drawn
+        glm::dvec3 centre_m{0.0};
+        double radius_m = 0.0;
+    };
+
+    /// Indices into PolygonModel::pivots of all that turn in this place, blade by blade perhaps; the first one's axis
+    /// is the disc's.
+    std::vector<std::uint32_t> pivots;
+    double root_m = 0.0;           ///< the radius at which the disc begins; polygons that reach beyond it are blades
+    std::array<Side, 2> sides;     ///< seen from the side to which the axis points, and from the other one
+    scene::IndexRange blades = {}; ///< of AircraftModel::turning; empty on models without it
+};
+
+/// Polygons of a list that are drawn alike, up to the first one of the next run. A polygon of RotorDisc::sides has a
+/// run of its own.
 struct OpacityRun {
-    std::uint32_t first = 0; ///< place in the list; the run ends where the next one begins
+    std::uint32_t first = 0; ///< place in the list
     float opacity = 1.0F;
+    std::uint32_t disc = models::none; ///< index into AircraftModel::discs of the disc whose blades they are
+    /// For each side whether it is RotorDisc::Side::polygon.
+    std::array<bool, 2> has_side{};
+
+    bool operator==(const OpacityRun&) const = default;
 };
 
 /// The transparent polygons of a mesh, in the model's index buffer as `order` lists them.
@@ -101,10 +126,10 @@ struct AircraftModel {
     std::shared_ptr<const refine::MeshTextures> progressive_textures;
     /// One for each representation.
     std::vector<double> errors_m;
-    /// With a progressive mesh: the triangles of turning parts, which turn by the pivots of the polygons. All have
-    /// polygon number 0: all are smooth, or all are flat.
+    /// With a progressive mesh: the triangles of turning parts, which turn by the pivots of the polygons, without the
+    /// blades of discs, which follow them. All have polygon number 0: all are smooth, or all are flat.
     scene::IndexRange turning{};
-    /// Of the polygons of order.polygons(); empty where all are opaque.
+    /// Of the polygons of order.polygons(); empty where all are opaque and none is a blade of a disc.
     std::vector<OpacityRun> opacity_runs{};
     /// With levels or a progressive mesh: the transparent surfaces of the finest mesh, which are blended over all
     /// others. All have polygon number 0.
@@ -114,6 +139,9 @@ struct AircraftModel {
     /// How controls move the parts of the turning triangles: first those of the pivots, then further parts; those at
     /// the end that nothing moves are missing. Body axes.
     std::vector<models::PartMoves> moves = {};
+    std::vector<RotorDisc> discs = {};
+    /// For each polygon the index of the disc whose blade it is, models::none for the others; empty without discs.
+    std::vector<std::uint32_t> disc_of_polygon = {};
 
     /// The number of matrices that place the model: of the body, the pivots and the further parts.
     std::size_t part_count() const { return 1 + std::max(polygons.pivots.size(), moves.size()); }
@@ -131,18 +159,6 @@ struct AircraftModel {
         return representation < levels.size() ? levels[representation].shaded : shaded;
     }
 };
-
-/// Polygons in an index buffer: an order, and of its list first_indices and opacity_runs.
-struct IndexedOrder {
-    const draworder::DrawOrder& order;
-    std::span<const std::uint32_t> first_indices;
-    std::span<const OpacityRun> opacity_runs;
-};
-
-/// Appends what an eye (body axes, metres) paints: parts of the index buffer, each of one opacity, the first painted
-/// first. `walk` is scratch memory.
-void append_ranges(const IndexedOrder& polygons, const glm::dvec3& eye_in_body_m, draworder::DrawOrder::Walk& walk,
-    std::vector<scene::IndexRange>& ranges);
 
 /// Makes the buffers of a model. `pilot_eye_m`: body axes. `normals`: for smooth shading, one for each corner; empty =
 /// by crease angle, which needs polygons that are not split. Loading work.

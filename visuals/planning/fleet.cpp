@@ -11,6 +11,8 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <functional>
+#include <iterator>
 #include <utility>
 
 namespace octant::visuals::planning {
@@ -46,6 +48,13 @@ scene::PolygonTints model_tints(const PlacedAircraft& aircraft, scene::ModelDisp
     const double error_m = is_far(aircraft) ? aircraft.far_error_m : model.errors_m[aircraft.representation];
     const std::uint32_t colour = level_colour(error_m, radius_m);
     return {colour, colour};
+}
+
+/// The side of a disc that the eye sees.
+std::size_t side_to_eye(const PlacedAircraft& aircraft, std::uint32_t disc) {
+    const WorldCircle one = place_disc(*aircraft.model, aircraft.parts, disc, 0);
+    const WorldCircle other = place_disc(*aircraft.model, aircraft.parts, disc, 1);
+    return glm::dot(one.centre_m + other.centre_m, one.axis) < 0.0 ? 0 : 1;
 }
 
 /// Writes the matrices of the parts of an aircraft, drawn as a model, in a state, with the eye subtracted.
@@ -177,9 +186,11 @@ void Fleet::place(
         far_parts.resize(aircraft.far_model->part_count());
         place_all_parts(aircraft, *aircraft.far_model, state, positions, eye_m, far_parts);
         aircraft.far_parts = far_parts;
+        aircraft.far_disc_strengths = disc_strengths(aircraft, *aircraft.far_model, far_parts, positions, view);
     }
     const glm::dvec3 eye_in_body_m = draworder::eye_in_body(eye_m, state.position_m, state.body_to_world);
     aircraft.cell = model.order.has_one_cell_per_eye() ? model.order.cell_of(eye_in_body_m) : 0;
+    aircraft.disc_strengths = disc_strengths(aircraft, model, parts, positions, view);
     choose_representation(aircraft, view);
     aircraft.tints = model_tints(aircraft, settings_.shading.show_model);
     choose_ranges(aircraft, eye_in_body_m);
@@ -216,29 +227,99 @@ void Fleet::choose_representation(PlacedAircraft& aircraft, const FrameView& vie
     last = aircraft.representation;
 }
 
-/// Chooses the ranges of an aircraft's index buffer that are drawn: of a mesh its level and its glass, of a refined one
-/// its glass only, of an absent aircraft none. Without painting orders the order of a model with glass has all that is
-/// opaque first (draworder::opaque_first).
+/// How strong the discs of a model are, whose parts are placed by these matrices: 0 for rotors that a host program
+/// holds, in the order of the 1989 paper, which holds at one angle alone, and where the settings say so. A disc of few
+/// pixels fades.
+std::vector<float> Fleet::disc_strengths(const PlacedAircraft& aircraft, const AircraftModel& model,
+    std::span<const glm::dmat4> parts, const PartPositions& positions, const FrameView& view) const {
+    std::vector<float> strengths(model.discs.size(), 0.0F);
+    const scene::SurfaceSettings& surface = settings_.surface;
+    if (surface.order_method == draworder::OrderMethod::Paper || surface.effects == false) { return strengths; }
+    for (std::size_t i = 0; i < strengths.size(); ++i) {
+        const RotorDisc& disc = model.discs[i];
+        const bool is_held = std::ranges::any_of(positions.articulated_parts, [&](const ArticulatedPart& part) {
+            return part.aircraft == aircraft.number && std::ranges::any_of(disc.pivots, [&](std::uint32_t pivot) {
+                return pivot == pivot_in(model.polygons, aircraft.near_model->polygons, part.pivot);
+            });
+        });
+        if (is_held) { continue; }
+        const WorldCircle circle = place_disc(model, parts, static_cast<std::uint32_t>(i), 0);
+        const double distance_m = std::max(glm::length(circle.centre_m), circle.radius_m);
+        constexpr double faint_px = 3.0;
+        constexpr double strong_px = 8.0;
+        strengths[i] =
+            static_cast<float>(glm::smoothstep(faint_px, strong_px, circle.radius_m / (view.pixel_rad * distance_m)));
+    }
+    return strengths;
+}
+
+/// Chooses the ranges of an aircraft's index buffer that are drawn, and the discs: of a mesh its level and its glass,
+/// of a refined one its glass only, of an absent aircraft none. Without painting orders the order of a model with glass
+/// has all that is opaque first (draworder::opaque_first).
 void Fleet::choose_ranges(PlacedAircraft& aircraft, const glm::dvec3& eye_in_body_m) {
     const AircraftModel& model = *aircraft.model;
     aircraft.ranges.clear();
+    aircraft.discs.clear();
     aircraft.list = {};
     if (aircraft.is_absent) { return; }
+    const scene::HiddenSurface hidden_surface = settings_.surface.hidden_surface;
     if (is_mesh(aircraft)) {
         if (!is_refined(aircraft)) { aircraft.ranges.push_back(model.levels[aircraft.representation].range); }
         if (const auto& glass = model.glass) {
-            append_ranges(
-                {glass->order, glass->first_indices, glass->opacity_runs}, eye_in_body_m, walk_, aircraft.ranges);
+            append_ranges(glass->order, glass->first_indices, glass->opacity_runs, eye_in_body_m, aircraft);
         }
-        return;
-    }
-    if (settings_.surface.hidden_surface != scene::HiddenSurface::Octant && model.opacity_runs.empty()) {
+    } else if (hidden_surface != scene::HiddenSurface::Octant && model.opacity_runs.empty()) {
         aircraft.list = model.file_list;
         aircraft.ranges.push_back(model.file_order);
-        return;
+    } else {
+        aircraft.list = model.order.polygons();
+        append_ranges(model.order, model.first_indices, model.opacity_runs, eye_in_body_m, aircraft);
     }
-    aircraft.list = model.order.polygons();
-    append_ranges({model.order, model.first_indices, model.opacity_runs}, eye_in_body_m, walk_, aircraft.ranges);
+    if (hidden_surface != scene::HiddenSurface::DepthBuffer && !is_mesh(aircraft)) { return; }
+    aircraft.discs.clear();
+    for (std::uint32_t disc = 0; disc < model.discs.size(); ++disc) {
+        const std::size_t side = side_to_eye(aircraft, disc);
+        const bool is_seen = model.discs[disc].sides[side].polygon != models::none;
+        if (aircraft.disc_strengths[disc] > 0.0F && is_seen) { aircraft.discs.push_back({disc, side, 0}); }
+    }
+    std::ranges::stable_sort(aircraft.discs, std::ranges::greater(), [&](const PlacedDisc& one) {
+        return glm::length(place_disc(model, aircraft.parts, one.disc, one.side).centre_m);
+    });
+}
+
+/// Appends what an eye (body axes, metres) paints, the first painted first.
+void Fleet::append_ranges(const draworder::DrawOrder& order, std::span<const std::uint32_t> first_indices,
+    std::span<const OpacityRun> runs, const glm::dvec3& eye_in_body_m, PlacedAircraft& aircraft) {
+    const auto add = [&](std::size_t first, std::size_t end, const OpacityRun& run) {
+        const std::uint32_t index = first_indices[first];
+        append_run(run,
+            {index, first_indices[end] - index, static_cast<int>(end - first), static_cast<std::uint32_t>(first),
+                run.opacity},
+            aircraft);
+    };
+    for (const auto& range : order.ranges_of(eye_in_body_m, walk_)) {
+        const std::size_t end = range.first + range.count;
+        if (runs.empty()) {
+            add(range.first, end, {});
+            continue;
+        }
+        auto run = std::ranges::upper_bound(runs, range.first, {}, &OpacityRun::first);
+        for (std::size_t first = range.first; first < end; ++run) {
+            const std::size_t run_end = run == runs.end() ? end : std::min<std::size_t>(run->first, end);
+            add(first, run_end, *std::prev(run));
+            first = run_end;
+            if (run == runs.end()) { break; }
+        }
+    }
+}
+
+/// Appends the polygons of a run, and the disc that is painted with them.
+void Fleet::append_run(const OpacityRun& run, const scene::IndexRange& range, PlacedAircraft& aircraft) const {
+    const float strength = run.disc == models::none ? 0.0F : aircraft.disc_strengths[run.disc];
+    if (strength < 1.0F) { aircraft.ranges.push_back(range); }
+    if (strength <= 0.0F) { return; }
+    const std::size_t side = side_to_eye(aircraft, run.disc);
+    if (run.has_side[side]) { aircraft.discs.push_back({run.disc, side, aircraft.ranges.size()}); }
 }
 
 void Fleet::forget_frames() {

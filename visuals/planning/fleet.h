@@ -94,7 +94,12 @@ private:
         const FrameView& view);
     void choose_model(PlacedAircraft& aircraft, double distance_m, const FrameView& view);
     void choose_representation(PlacedAircraft& aircraft, const FrameView& view);
+    std::vector<float> disc_strengths(const PlacedAircraft& aircraft, const AircraftModel& model,
+        std::span<const glm::dmat4> parts, const PartPositions& positions, const FrameView& view) const;
     void choose_ranges(PlacedAircraft& aircraft, const glm::dvec3& eye_in_body_m);
+    void append_ranges(const draworder::DrawOrder& order, std::span<const std::uint32_t> first_indices,
+        std::span<const OpacityRun> runs, const glm::dvec3& eye_in_body_m, PlacedAircraft& aircraft);
+    void append_run(const OpacityRun& run, const scene::IndexRange& range, PlacedAircraft& aircraft) const;
     OrientedBox bounding_box_of(const PlacedAircraft& aircraft, const sim::AircraftState& state,
         const std::optional<AxisAlignedBox>& effects, const FrameView& view) const;
 

@@ -564,9 +564,9 @@ public:
             std::max(max_error_px * view.pixel_rad * nearest_m, hidden_share * edges_.back().grown_m);
         const bool far_model_casts = !aircraft.far_parts.empty() && aircraft.far_error_m / to_sun_.z <= hidden_m;
         if (far_model_casts) {
-            collect_faces(*aircraft.far_model, aircraft.far_parts, hull.centre_m);
+            collect_faces({*aircraft.far_model, aircraft.far_parts, aircraft.far_disc_strengths}, hull.centre_m);
         } else {
-            collect_faces(*aircraft.model, aircraft.parts, hull.centre_m);
+            collect_faces({*aircraft.model, aircraft.parts, aircraft.disc_strengths}, hull.centre_m);
         }
         for (const std::uint32_t candidate : candidates_) {
             place_triangle(ground_->triangles, candidate, triangle_);
@@ -647,8 +647,16 @@ private:
         return -1.0;
     }
 
-    /// Collects the faces of all edges_. `middle_m`: of the aircraft.
-    void collect_faces(const AircraftModel& model, std::span<const glm::dmat4> parts, const glm::dvec3& middle_m) {
+    /// A model in its place, and how strong its discs are.
+    struct Caster {
+        const AircraftModel& model;
+        std::span<const glm::dmat4> parts;
+        std::span<const float> disc_strengths;
+    };
+
+    /// Collects the faces of all edges_, and of discs in place of their blades. `middle_m`: of the aircraft.
+    void collect_faces(const Caster& caster, const glm::dvec3& middle_m) {
+        const AircraftModel& model = caster.model;
         faces_.clear();
         face_corners_.clear();
         face_extents_.begin(to_sun_, middle_m);
@@ -657,7 +665,9 @@ private:
         const auto count = static_cast<std::uint32_t>(model.polygons.polygons.size());
         is_sunlit_.assign(count, false);
         for (std::uint32_t polygon = 0; polygon < count; ++polygon) {
-            place_polygon(model, parts, polygon, part_);
+            const std::uint32_t disc = model.discs.empty() ? models::none : model.disc_of_polygon[polygon];
+            if (disc != models::none && caster.disc_strengths[disc] >= 1.0F) { continue; }
+            place_polygon(model, caster.parts, polygon, part_);
             if (glm::dot(plane_of(part_).normal, to_sun_) <= 0.0) { continue; }
             is_sunlit_[polygon] = true;
             sunlit_.push_back({sunlit_corners_.size(), part_.size(), polygon});
@@ -672,6 +682,30 @@ private:
                 first, end, [&](std::uint32_t other) { return other != models::none && is_sunlit_[other]; });
         });
         add_faces(1, edges_.size(), cell_share * outermost_m);
+        for (std::uint32_t disc = 0; disc < model.discs.size(); ++disc) {
+            if (caster.disc_strengths[disc] > 0.0F) { add_disc(caster, disc); }
+        }
+    }
+
+    /// Adds a disc, with an edge of its own: it leaves more light than the whole shadow.
+    void add_disc(const Caster& caster, std::uint32_t disc) {
+        constexpr float covered = 0.21F; // of the light, as RotorDisc is drawn
+        constexpr int corners = 24;
+        const WorldCircle circle = place_disc(caster.model, caster.parts, disc, 0);
+        const double facing = glm::dot(circle.axis, to_sun_);
+        if (std::abs(facing) < 0.02) { return; } // edge-on
+        const glm::dvec3 right = glm::normalize(
+            glm::cross(circle.axis, std::abs(circle.axis.x) < 0.7 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0)));
+        const glm::dvec3 up = glm::cross(circle.axis, right) * (facing > 0.0 ? 1.0 : -1.0);
+        part_.clear();
+        for (int i = 0; i < corners; ++i) {
+            const double turn = 2.0 * pi * i / corners;
+            part_.push_back(
+                {circle.centre_m + circle.radius_m * (std::cos(turn) * right + std::sin(turn) * up), false});
+        }
+        const float dark = 1.0F - edges_.front().light;
+        edges_.push_back({0.0, 1.0F - dark * covered * caster.disc_strengths[disc]});
+        add_face(edges_.size() - 1);
     }
 
     /// Adds the polygons of sunlit_ to the faces of edges_[begin] to edges_[end - 1], grown: those in one cell across

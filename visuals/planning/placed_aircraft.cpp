@@ -20,19 +20,6 @@ glm::dmat4 turned_about(const models::polygons::Pivot& pivot, double angle_rad, 
     return glm::translate(glm::rotate(there, angle_rad, pivot.axis), -pivot.point_m);
 }
 
-/// The pivot of `model` that turns the part of the name that `pivot` of `numbered` turns; past the end where there is
-/// none.
-std::size_t pivot_in(
-    const models::polygons::PolygonModel& model, const models::polygons::PolygonModel& numbered, std::size_t pivot) {
-    if (&model == &numbered || pivot >= numbered.pivots.size()) {
-        return pivot < numbered.pivots.size() ? pivot : model.pivots.size();
-    }
-    const std::string& name = numbered.parts[numbered.pivots[pivot].part];
-    const auto found = std::ranges::find_if(
-        model.pivots, [&](const models::polygons::Pivot& one) { return model.parts[one.part] == name; });
-    return static_cast<std::size_t>(found - model.pivots.begin());
-}
-
 } // namespace
 
 void place_polygon(const PlacedAircraft& aircraft, std::uint32_t polygon, ViewPolygon& placed) {
@@ -46,6 +33,26 @@ void place_polygon(
     for (const std::uint32_t vertex : model.polygons.corners(polygon)) {
         placed.push_back({glm::dvec3(part * glm::dvec4(model.polygons.vertices_m[vertex], 1.0)), false});
     }
+}
+
+std::size_t pivot_in(
+    const models::polygons::PolygonModel& model, const models::polygons::PolygonModel& numbered, std::size_t pivot) {
+    if (&model == &numbered || pivot >= numbered.pivots.size()) {
+        return pivot < numbered.pivots.size() ? pivot : model.pivots.size();
+    }
+    const std::string& name = numbered.parts[numbered.pivots[pivot].part];
+    const auto found = std::ranges::find_if(
+        model.pivots, [&](const models::polygons::Pivot& one) { return model.parts[one.part] == name; });
+    return static_cast<std::size_t>(found - model.pivots.begin());
+}
+
+WorldCircle place_disc(
+    const AircraftModel& model, std::span<const glm::dmat4> parts, std::uint32_t disc, std::size_t side) {
+    const RotorDisc& own = model.discs[disc];
+    const std::uint32_t pivot = own.pivots.front();
+    const glm::dmat4& part = parts[pivot + 1];
+    return {glm::dvec3(part * glm::dvec4(own.sides[side].centre_m, 1.0)),
+        glm::dvec3(part * glm::dvec4(model.polygons.pivots[pivot].axis, 0.0)), own.sides[side].radius_m};
 }
 
 scene::AircraftDraw draw_of(const PlacedAircraft& aircraft, std::span<const scene::IndexRange> ranges) {

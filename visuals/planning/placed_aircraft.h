@@ -32,6 +32,14 @@ struct ViewedAircraft {
     std::uint32_t first_smooth = 0;
 };
 
+/// The disc of a rotor in one frame.
+struct PlacedDisc {
+    std::uint32_t disc = 0; ///< Index into AircraftModel::discs.
+    std::size_t side = 0;   ///< Index into RotorDisc::sides: the one that the eye sees.
+    /// It is painted before this one of PlacedAircraft::ranges, or after the last one.
+    std::size_t range = 0;
+};
+
 /// One aircraft as it is in one frame. Fleet writes all members but those of ViewedAircraft anew in each frame.
 struct PlacedAircraft : ViewedAircraft {
     const AircraftModel* model = nullptr; ///< near_model or far_model.
@@ -48,6 +56,11 @@ struct PlacedAircraft : ViewedAircraft {
     std::size_t representation = 0;
     /// The ranges of the model's index buffer that are drawn, one after the other; of a refined mesh only its glass.
     std::vector<scene::IndexRange> ranges;
+    /// The discs that are seen: in painting order; of an aircraft that is drawn by depth from far to near.
+    std::vector<PlacedDisc> discs;
+    /// For each of AircraftModel::discs how strong it is: below 1 its blades are drawn, at 0 they alone.
+    std::vector<float> disc_strengths;
+    std::vector<float> far_disc_strengths; ///< The same of far_parts.
     /// The polygon numbers in the order of the index buffer: IndexRange::first_polygon is an index into it. Empty for a
     /// mesh.
     std::span<const std::uint32_t> list;
@@ -99,6 +112,22 @@ void place_parts(const models::polygons::PolygonModel& model, const glm::dmat4& 
 /// Moves parts as the controls stand. `parts`: AircraftModel::part_count() matrices, the first ones those of
 /// place_parts().
 void move_parts(const AircraftModel& model, const models::ControlPositions& positions, std::span<glm::dmat4> parts);
+
+/// The pivot of `model` that turns the part of the name that `pivot` of `numbered` turns; past the end where there is
+/// none.
+std::size_t pivot_in(
+    const models::polygons::PolygonModel& model, const models::polygons::PolygonModel& numbered, std::size_t pivot);
+
+/// A circle in world axes with the eye at the origin.
+struct WorldCircle {
+    glm::dvec3 centre_m{0.0};
+    glm::dvec3 axis{0.0, 0.0, 1.0}; ///< unit vector
+    double radius_m = 0.0;
+};
+
+/// The disc `side` of RotorDisc::sides of a model whose parts are placed by these matrices; its axis is the pivot's.
+WorldCircle place_disc(
+    const AircraftModel& model, std::span<const glm::dmat4> parts, std::uint32_t disc, std::size_t side);
 
 /// Turns and moves a part as a host program says; does nothing where the model has no such pivot. `part.pivot` is an
 /// index into the pivots of `numbered`; in `model`, which may be its far model, the pivot of the same name turns.

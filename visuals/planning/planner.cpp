@@ -298,7 +298,12 @@ private:
     void count(const SmoothChoice::Count& shaded, PlanCounts& counts) const {
         for (const PlacedAircraft& aircraft : fleet_.placed()) {
             counts.aircraft_polygons += aircraft.polygon_count;
-            counts.aircraft_polygons += is_refined(aircraft) ? aircraft.model->turning.polygons : 0;
+            if (!is_refined(aircraft)) { continue; }
+            counts.aircraft_polygons += aircraft.model->turning.polygons;
+            for (std::size_t i = 0; i < aircraft.model->discs.size(); ++i) {
+                const bool has_blades = aircraft.disc_strengths[i] < 1.0F;
+                counts.aircraft_polygons += has_blades ? aircraft.model->discs[i].blades.polygons : 0;
+            }
         }
         if (!fleet_.placed().empty()) {
             const PlacedAircraft& first = fleet_.placed().front();

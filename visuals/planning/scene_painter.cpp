@@ -611,8 +611,9 @@ private:
         const auto is_between = [&](const Transparent& one) {
             using enum Transparent::Place;
             const bool is_effect = one.place == Behind || one.place == InFront;
-            return one.place == Unordered || (one.place == Glass && !in_front_.intersecting().empty()) ||
-                   (members_.size() > 1 && (is_effect || one.place == Glass));
+            const bool is_within = one.place == Glass || one.place == Disc;
+            return (is_within && !in_front_.intersecting().empty()) ||
+                   (members_.size() > 1 && (is_effect || is_within));
         };
         return std::ranges::any_of(members_, [](const PlacedAircraft* one) { return is_mesh(*one); }) ||
                std::ranges::any_of(group_transparents_, is_between);
@@ -625,7 +626,7 @@ private:
         const std::span<const std::uint32_t> ground = in_front_.intersecting();
         if (!ground.empty()) { begin_depth(group); }
         for (const Transparent& one : things) {
-            if (one.place == Transparent::Place::Glass) { continue; }
+            if (one.place == Transparent::Place::Glass || one.place == Transparent::Place::Disc) { continue; }
             paint_transparent(one, ground.empty() ? scene::DepthUse::None : scene::DepthUse::Nearest);
         }
     }
@@ -660,19 +661,41 @@ private:
     /// What of an aircraft is drawn.
     enum class Ranges { All, Opaque, Glass };
 
-    /// Adds ranges of an aircraft in their order.
+    /// Adds ranges of an aircraft in their order; in painting order with its discs.
     void add_ranges(const PlacedAircraft& aircraft, scene::DepthUse depth, Ranges wanted = Ranges::All) {
         const std::span<const scene::IndexRange> ranges(aircraft.ranges);
+        std::span<const Transparent> discs;
+        if (depth == scene::DepthUse::None) { discs = discs_of(aircraft); }
+        const auto next_disc = [&] {
+            return discs.empty() ? ranges.size() : aircraft.discs[aircraft.discs.size() - discs.size()].range;
+        };
+        const auto add_discs_before = [&](std::size_t range) {
+            while (!discs.empty() && next_disc() == range) {
+                steps_.add_transparent(discs.front().range, depth);
+                discs = discs.subspan(1);
+            }
+        };
         std::size_t end = 0;
         for (std::size_t first = 0; first < ranges.size(); first = end) {
+            add_discs_before(first);
             const scene::IndexRange& run = ranges[first];
             end = first + 1;
-            while (end < ranges.size() && ranges[end].opacity == run.opacity) { ++end; }
+            while (end < std::min(ranges.size(), next_disc()) && ranges[end].opacity == run.opacity) { ++end; }
             if (wanted != Ranges::All && is_glass(run) != (wanted == Ranges::Glass)) { continue; }
             scene::AircraftDraw draw = draw_of(aircraft, ranges.subspan(first, end - first));
             if (is_mesh(aircraft) && is_glass(run)) { draw.first_smooth = frame_->smooth.turning_word_index(); }
             steps_.add(draw, depth, run.opacity);
         }
+        add_discs_before(ranges.size());
+    }
+
+    /// One for each of PlacedAircraft::discs; nothing for an aircraft that is out of view or very small.
+    std::span<const Transparent> discs_of(const PlacedAircraft& aircraft) const {
+        if (aircraft.discs.empty()) { return {}; }
+        const auto own = std::ranges::equal_range(
+            transparents_of(aircraft.number), Transparent::Place::Disc, {}, &Transparent::place);
+        assert(own.empty() || own.size() == aircraft.discs.size());
+        return {own.begin(), own.end()};
     }
 
     /// Paints a whole aircraft, by depth without its glass. Refined meshes are always drawn by depth.
@@ -688,11 +711,18 @@ private:
         draw.tints = aircraft.tints;
         draw.object = aircraft.object;
         steps_.add(draw);
-        if (const scene::IndexRange& turning = aircraft.model->turning; turning.index_count > 0) {
-            scene::AircraftDraw turning_draw = draw_of(aircraft, turning.first_index, turning.index_count);
-            turning_draw.first_smooth = frame_->smooth.turning_word_index();
-            steps_.add(turning_draw, scene::DepthUse::Nearest);
+        add_turning(aircraft, aircraft.model->turning);
+        for (std::size_t i = 0; i < aircraft.model->discs.size(); ++i) {
+            if (aircraft.disc_strengths[i] < 1.0F) { add_turning(aircraft, aircraft.model->discs[i].blades); }
         }
+    }
+
+    /// Adds triangles of AircraftModel::turning, by depth.
+    void add_turning(const PlacedAircraft& aircraft, const scene::IndexRange& triangles) {
+        if (triangles.index_count == 0) { return; }
+        scene::AircraftDraw draw = draw_of(aircraft, triangles.first_index, triangles.index_count);
+        draw.first_smooth = frame_->smooth.turning_word_index();
+        steps_.add(draw, scene::DepthUse::Nearest);
     }
 
     /// `depth`: of the aircraft that are in the buffer. Glass has a range of its own only where they are.

@@ -30,7 +30,6 @@
 namespace octant::visuals::planning {
 
 using models::ColourVertex;
-using models::polygons::Pivot;
 using models::polygons::PolygonModel;
 
 namespace {
@@ -192,14 +191,6 @@ private:
 
 namespace {
 
-/// Faster rotors are drawn as discs.
-constexpr double disc_turns_per_s = 3.0;
-/// The distance by which other parts may reach through a disc's plane, as a share of its radius.
-constexpr double slack = 0.06;
-/// Blades begin at this share of the radius.
-constexpr double blade_root = 0.3;
-/// The distance of a disc from its blades, as a share of its radius: by depth it is in front of all of them, or behind.
-constexpr double apart = 0.01;
 /// The length of a plume.
 constexpr double plume_radii = 9.0;
 /// The length of a trail of vapour.
@@ -214,7 +205,7 @@ std::uint32_t clear_colour(const glm::vec3& rgb, double alpha) {
 
 /// Collects the triangles of an effect, given in body axes, in world axes with the eye at the origin.
 struct Shape {
-    const glm::dmat4& body_to_eye_world;
+    glm::dmat4 body_to_eye_world;
     std::vector<ColourVertex>& vertices;
     std::vector<std::uint32_t>& indices;
 
@@ -250,46 +241,51 @@ struct DiscRing {
     float grey;
 };
 
-/// Blades cover a larger share near the hub; tips are painted in light colours.
-constexpr std::array disc_rings{DiscRing{0.01, 0.38, 0.2F}, DiscRing{0.25, 0.28, 0.28F}, DiscRing{0.6, 0.21, 0.48F},
-    DiscRing{0.91, 0.17, 0.54F}, DiscRing{0.96, 0.22, 0.7F}, DiscRing{1.0, 0.0, 0.7F}};
+/// Blades are dark and cover a larger share near the hub; tips are painted in light colours.
+constexpr std::array disc_rings{
+    DiscRing{0.0, 0.34, 0.16F}, DiscRing{0.92, 0.2, 0.24F}, DiscRing{0.96, 0.24, 0.62F}, DiscRing{1.0, 0.0, 0.62F}};
 
-/// The segments of a circle whose chords are at most a pixel from it; `radius_px` is above 0.
+/// How much more than seen along its axis a disc covers where the line of sight meets it at an angle of this sine: its
+/// blades have a thickness, about this share of their chord with their pitch.
+double oblique_coverage(double alpha, double sine) {
+    constexpr double thickness = 0.15;
+    constexpr double max_alpha = 0.75;
+    return std::min(alpha * (1.0 + thickness * (1.0 / std::max(sine, 0.01) - 1.0)), max_alpha);
+}
+
+/// The segments of a circle whose chords are at most 1.5 pixels from it, which its faint edge hides; `radius_px` is
+/// above 0.
 int segments_of(double radius_px) {
-    constexpr double max_error_px = 1.0;
+    constexpr double max_error_px = 1.5;
     const double half_rad = std::acos(1.0 - std::min(max_error_px / radius_px, 0.5));
     return std::clamp(static_cast<int>(std::ceil(pi / half_rad)), 8, 64);
 }
 
-/// Draws a disc, from the light on the side that the eye sees, brighter where the sun is mirrored or shines through. It
-/// fades where it is only a few pixels large.
-void draw_disc(
-    const glm::dvec3& centre_m, const glm::dvec3& axis, double radius_m, const EffectLight& light, Shape& shape) {
-    const glm::dvec3 middle_m(shape.body_to_eye_world * glm::dvec4(centre_m, 1.0));
-    const glm::dvec3 normal(shape.body_to_eye_world * glm::dvec4(axis, 0.0));
-    const double radius_px = radius_m / (light.pixel_rad * std::max(glm::length(middle_m), radius_m));
-    const double share = glm::smoothstep(3.0, 8.0, radius_px);
-    if (share <= 0.0) { return; }
-    const double sun_side = glm::dot(normal, light.to_sun) * (glm::dot(normal, middle_m) > 0.0 ? -1.0 : 1.0);
+/// Draws a disc, from the light on the side that the eye sees, brighter where the sun is mirrored or shines through.
+/// `root_m`: its inner radius; `strength`: of its coverage, 0..1.
+void draw_disc(const WorldCircle& disc, double root_m, float strength, const EffectLight& light, Shape& shape) {
+    const double radius_px = disc.radius_m / (light.pixel_rad * std::max(glm::length(disc.centre_m), disc.radius_m));
+    const double sun_side = glm::dot(disc.axis, light.to_sun) * (glm::dot(disc.axis, disc.centre_m) > 0.0 ? -1.0 : 1.0);
     constexpr double let_through = 0.5; // of the light on the other side
     const double facing = std::max(sun_side, -let_through * sun_side);
     const glm::vec3 whole = light.ambient + light.sunlight * static_cast<float>(facing);
     // A line of sight in this direction meets the sun, mirrored or behind the disc.
-    const glm::dvec3 to_glare = sun_side > 0.0 ? glm::reflect(light.to_sun, normal) : light.to_sun;
+    const glm::dvec3 to_glare = sun_side > 0.0 ? glm::reflect(light.to_sun, disc.axis) : light.to_sun;
     const int segments = segments_of(radius_px);
-    const auto [right, up] = across(axis);
+    const auto [right, up] = across(disc.axis);
     const auto first = static_cast<std::uint32_t>(shape.vertices.size());
     for (const DiscRing& ring : disc_rings) {
+        const double ring_m = std::max(ring.radius * disc.radius_m, root_m);
         for (int segment = 0; segment < segments; ++segment) {
             const double turn = 2.0 * pi * segment / segments;
-            const std::uint32_t vertex =
-                shape.add(centre_m + ring.radius * radius_m * (std::cos(turn) * right + std::sin(turn) * up), 0U);
-            const glm::dvec3 way(shape.vertices[vertex].position_m);
-            const double cosine = std::max(glm::dot(way, to_glare) / std::max(glm::length(way), 1e-6), 0.0);
+            const glm::dvec3 at_m = disc.centre_m + ring_m * (std::cos(turn) * right + std::sin(turn) * up);
+            const glm::dvec3 sight = at_m / std::max(glm::length(at_m), 1e-6);
+            const double alpha = oblique_coverage(ring.alpha, std::abs(glm::dot(sight, disc.axis)));
+            const double cosine = std::max(glm::dot(sight, to_glare), 0.0);
             const double squared = cosine * cosine;
             const auto glare = static_cast<float>(0.4 * squared * squared * squared * squared);
             const glm::vec3 rgb = glm::min(ring.grey * whole + glare * light.sunlight, glm::vec3(1.0F));
-            shape.vertices[vertex].colour = clear_colour(rgb, share * ring.alpha);
+            shape.add(at_m, clear_colour(rgb, static_cast<double>(strength) * alpha));
         }
     }
     const auto count = static_cast<std::uint32_t>(segments);
@@ -353,16 +349,11 @@ void draw_vapour(const glm::dvec3& from_m, double strength, Shape& shape) {
     }
 }
 
-/// The extent of the model along a direction, without one of its parts.
-double reach_along(const PolygonModel& model, const glm::dvec3& direction, std::optional<std::uint32_t> excluded_part) {
-    double max_m = -std::numeric_limits<double>::infinity();
-    for (std::size_t polygon = 0; polygon < model.polygons.size(); ++polygon) {
-        if (excluded_part && model.polygons[polygon].part == *excluded_part) { continue; }
-        for (const std::uint32_t vertex : model.corners(polygon)) {
-            max_m = std::max(max_m, glm::dot(direction, model.vertices_m[vertex]));
-        }
-    }
-    return max_m;
+/// The x coordinate of the rearmost corner of a polygon.
+double rear_of(const PolygonModel& model) {
+    double min_m = std::numeric_limits<double>::infinity();
+    for (const std::uint32_t vertex : model.corner_vertices) { min_m = std::min(min_m, model.vertices_m[vertex].x); }
+    return min_m;
 }
 
 bool is_of_nozzle(const std::string& name) {
@@ -380,133 +371,58 @@ EffectStrength strength_of(const sim::AircraftKind* kind, const sim::AircraftSta
     return strength;
 }
 
-/// The transparent effects around an aircraft: discs of fast rotors and propellers, and, where they are asked for,
-/// plumes behind nozzles and vapour behind wingtips. Each effect has a plane that separates it from the rest of the
-/// aircraft: it is painted after the aircraft for eyes on its own side and before it for all others. A disc without
-/// such a plane, as that of a tail rotor beside a cabin, is drawn only on aircraft that are meshes near the eye, by
-/// depth.
+/// The transparent effects around an aircraft: plumes behind nozzles and vapour behind wingtips. Each effect lies
+/// beyond a plane on whose other side, or in which, the whole aircraft lies: it is painted after the aircraft for eyes
+/// on its own side and before it for all others.
 class AircraftEffects {
 public:
-    /// Finds the effects of a model in body axes: discs at its fast pivots, but not in pictures in the order of the
-    /// 1989 paper, which has none; if the settings say so, plumes at its parts named as nozzles or burners, and, if
-    /// there is one, vapour at its wingtips.
-    AircraftEffects(const AircraftModel& model, const scene::SurfaceSettings& settings) {
-        if (settings.order_method != draworder::OrderMethod::Paper) {
-            find_discs(model.polygons, model.polygon_representation() > 0);
-        }
-        if (settings.effects) {
-            find_plumes(model.polygons);
-            find_vapour(model.polygons);
-        }
+    /// Finds the effects of a model in body axes: plumes at its parts named as nozzles or burners, and, if there is
+    /// one, vapour at its wingtips.
+    explicit AircraftEffects(const PolygonModel& model) {
+        find_plumes(model);
+        find_vapour(model);
     }
 
     /// The bounds of all effects at any strength, body axes.
     const std::optional<AxisAlignedBox>& bounds() const { return extent_; }
 
-    /// Adds the effects of a place in the painting order to a frame. Rotors in `articulated_parts` have no disc.
-    TransparentRange add(const PlacedAircraft& aircraft, Transparent::Place place, const EffectStrength& strength,
-        std::span<const ArticulatedPart> articulated_parts, const EffectLight& light, TransparentGeometry& geometry) {
-        const glm::dmat4& body_to_eye_world = aircraft.parts[0];
-        const auto is_articulated = [&](std::uint32_t pivot) {
-            return std::ranges::any_of(articulated_parts,
-                [&](const ArticulatedPart& part) { return part.aircraft == aircraft.number && part.pivot == pivot; });
-        };
-        const glm::dvec3 eye_m(glm::inverse(body_to_eye_world)[3]);
-        vertices_.clear();
-        indices_.clear();
-        Shape shape{body_to_eye_world, vertices_, indices_};
-        // From far to near, as discs of two rotors may overlap.
+    /// Draws the effects that are before or after the aircraft in the painting order.
+    void draw(const PlacedAircraft& aircraft, Transparent::Place place, const EffectStrength& strength, Shape& shape) {
+        const glm::dvec3 eye_m(glm::inverse(aircraft.parts[0])[3]);
+        // From far to near.
         std::ranges::sort(effects_, std::ranges::greater(), [&](const Effect& effect) {
-            return std::tuple(glm::distance(effect.position_m, eye_m), effect.kind, effect.pivot, effect.outward.y);
+            return std::tuple(glm::distance(effect.position_m, eye_m), effect.kind, effect.outward.y);
         });
         for (const Effect& effect : effects_) {
             if (place_of(effect, eye_m) != place) { continue; }
-            if (effect.kind == Kind::Disc) {
-                if (!is_articulated(effect.pivot)) {
-                    draw_disc(effect.position_m, effect.outward, effect.radius_m, light, shape);
-                }
-            } else if (effect.kind == Kind::Plume) {
+            if (effect.kind == Kind::Plume) {
                 draw_plume(effect.position_m, effect.radius_m, strength, shape);
             } else if (strength.vapour > 0.0) {
                 draw_vapour(effect.position_m, strength.vapour, shape);
             }
         }
-        return geometry.add(vertices_, indices_);
     }
 
 private:
-    enum class Kind : std::uint8_t { Disc, Plume, Vapour };
+    enum class Kind : std::uint8_t { Plume, Vapour };
 
     /// `outward` is the unit vector from the plane through `position_m` to the effect's side.
     struct Effect {
-        Kind kind = Kind::Disc;
+        Kind kind = Kind::Plume;
         glm::dvec3 position_m{0.0};
-        glm::dvec3 outward{0.0, 0.0, -1.0};
+        glm::dvec3 outward{-1.0, 0.0, 0.0};
         double radius_m = 1.0;
-        /// The pivot whose blades a disc shows.
-        std::uint32_t pivot = models::invalid_index;
-        /// Whether the plane separates the effect from the rest.
-        bool has_plane = true;
     };
 
     static Transparent::Place place_of(const Effect& effect, const glm::dvec3& eye_m) {
-        if (!effect.has_plane) { return Transparent::Place::Unordered; }
         const bool in_front = glm::dot(eye_m - effect.position_m, effect.outward) > 0.0;
         return in_front ? Transparent::Place::InFront : Transparent::Place::Behind;
-    }
-
-    void find_discs(const PolygonModel& model, bool has_meshes) {
-        std::vector<Effect> discs;
-        for (std::uint32_t number = 0; number < model.pivots.size(); ++number) {
-            if (std::abs(model.pivots[number].turns_per_s) < disc_turns_per_s) { continue; }
-            const std::optional<Effect> disc = disc_of(model, number);
-            if (disc && (disc->has_plane || has_meshes)) { discs.push_back(*disc); }
-        }
-        // Blades and spinner may be parts of their own: one disc for all that turns in one place, the largest.
-        std::ranges::stable_sort(discs, std::ranges::greater(), &Effect::radius_m);
-        for (const Effect& disc : discs) {
-            constexpr double one_place = 0.15; // of the larger radius
-            const bool is_within = std::ranges::any_of(effects_, [&](const Effect& larger) {
-                return glm::distance(larger.position_m, disc.position_m) < one_place * larger.radius_m &&
-                       std::abs(glm::dot(larger.outward, disc.outward)) > 0.99;
-            });
-            if (!is_within) { add_effect(disc, glm::dvec3(0.0)); }
-        }
-    }
-
-    /// The disc of a pivot, in a plane just beside its blades: one of which all other parts lie on the blades' side, if
-    /// there is one.
-    static std::optional<Effect> disc_of(const PolygonModel& model, std::uint32_t number) {
-        const Pivot& pivot = model.pivots[number];
-        Effect disc{.kind = Kind::Disc, .radius_m = 0.0, .pivot = number, .has_plane = false};
-        std::vector<glm::dvec2> corners_m; // distances from the axis and along it
-        for (std::size_t polygon = 0; polygon < model.polygons.size(); ++polygon) {
-            if (model.polygons[polygon].part != pivot.part) { continue; }
-            for (const std::uint32_t vertex : model.corners(polygon)) {
-                const glm::dvec3 off_m = model.vertices_m[vertex] - pivot.point_m;
-                const double along_m = glm::dot(off_m, pivot.axis);
-                corners_m.emplace_back(glm::length(off_m - along_m * pivot.axis), along_m);
-                disc.radius_m = std::max(disc.radius_m, corners_m.back().x);
-            }
-        }
-        if (corners_m.empty()) { return std::nullopt; }
-        for (double side = -1.0; side <= 1.0 && !disc.has_plane; side += 2.0) {
-            double reach_m = -std::numeric_limits<double>::max();
-            for (const glm::dvec2& corner_m : corners_m) {
-                if (corner_m.x >= blade_root * disc.radius_m) { reach_m = std::max(reach_m, side * corner_m.y); }
-            }
-            disc.outward = side * pivot.axis;
-            disc.position_m = pivot.point_m + (reach_m + apart * disc.radius_m) * disc.outward;
-            disc.has_plane = reach_along(model, disc.outward, pivot.part) <=
-                             glm::dot(disc.outward, disc.position_m) + slack * disc.radius_m;
-        }
-        return disc;
     }
 
     /// The plane of all plumes is that of the rearmost corner.
     void find_plumes(const PolygonModel& model) {
         const glm::dvec3 aft(-1.0, 0.0, 0.0);
-        const double rear_m = -reach_along(model, aft, std::nullopt);
+        const double rear_m = rear_of(model);
         for (const double side : {-1.0, 1.0}) {
             glm::dvec3 min_m(1e9);
             glm::dvec3 max_m(-1e9);
@@ -548,11 +464,8 @@ private:
     }
 
     void add_effect(const Effect& effect, const glm::dvec3& reach_m) {
-        const glm::dvec3 across =
-            effect.kind == Kind::Disc ? glm::max(1.0 - effect.outward * effect.outward, 0.0) : glm::dvec3(1.0);
-        const glm::dvec3 half_m = effect.radius_m * glm::sqrt(across);
-        const glm::dvec3 min_m = glm::min(effect.position_m, effect.position_m + reach_m) - half_m;
-        const glm::dvec3 max_m = glm::max(effect.position_m, effect.position_m + reach_m) + half_m;
+        const glm::dvec3 min_m = glm::min(effect.position_m, effect.position_m + reach_m) - effect.radius_m;
+        const glm::dvec3 max_m = glm::max(effect.position_m, effect.position_m + reach_m) + effect.radius_m;
         const AxisAlignedBox before = extent_.value_or(AxisAlignedBox{min_m, max_m});
         extent_ = AxisAlignedBox{glm::min(before.min_m, min_m), glm::max(before.max_m, max_m)};
         effects_.push_back(effect);
@@ -560,9 +473,6 @@ private:
 
     std::vector<Effect> effects_;
     std::optional<AxisAlignedBox> extent_;
-    /// The corners and triangles of one effect in this frame.
-    std::vector<models::ColourVertex> vertices_;
-    std::vector<std::uint32_t> indices_;
 };
 
 // The ribbon.
@@ -729,14 +639,17 @@ struct Transparents::Parts {
     std::optional<nature::CloudLayer> clouds;
     double cloud_height_m = 0.0;
     std::optional<PathRibbon> ribbon;
-    std::vector<AircraftEffects> effects; ///< One for each of Scene::aircraft.
+    std::vector<AircraftEffects> effects; ///< One for each of Scene::aircraft; empty where none are asked for.
     std::vector<std::optional<AxisAlignedBox>> effect_bounds;
     std::vector<Transparent> list;
     std::vector<OrientedBox> boxes;
     TransparentRange cloud_range;
+    /// The corners and triangles of one effect.
+    std::vector<models::ColourVertex> vertices;
+    std::vector<std::uint32_t> indices;
 
     void add(Transparent::Place place, std::size_t box, const TransparentRange& range) {
-        if (range.count > 0 || place == Transparent::Place::Glass) {
+        if (range.count > 0 || place == Transparent::Place::Glass || place == Transparent::Place::Disc) {
             list.push_back({place, static_cast<std::uint32_t>(box), range});
         }
     }
@@ -745,18 +658,32 @@ struct Transparents::Parts {
         const FrameView& view, const PlanRequest& request, const Fleet& fleet, const scene::FramePlan& plan) {
         constexpr double min_px = 6.0; // Smaller aircraft have no effects.
         const EffectLight light{plan.ambient, plan.sunlight, glm::dvec3(plan.to_sun), view.pixel_rad};
-        for (std::size_t i = 0; i < effects.size(); ++i) {
+        for (std::size_t i = 0; i < fleet.bounding_boxes().size(); ++i) {
             const OrientedBox& hull = fleet.bounding_boxes()[i];
             const bool is_seen = radius_m(hull) > min_px * view.pixel_rad * glm::length(hull.centre_m);
             if (!is_seen || !in_view(hull, view)) { continue; }
+            const PlacedAircraft& aircraft = fleet.placed()[i];
+            for (const PlacedDisc& disc : aircraft.discs) {
+                Shape shape = empty_shape(glm::dmat4(1.0));
+                draw_disc(place_disc(*aircraft.model, aircraft.parts, disc.disc, disc.side),
+                    aircraft.model->discs[disc.disc].root_m, aircraft.disc_strengths[disc.disc], light, shape);
+                add(Transparent::Place::Disc, i, geometry.add(vertices, indices));
+            }
+            if (effects.empty()) { continue; }
             const EffectStrength strength =
                 strength_of(sim::find_aircraft_kind(scene.model_of(i).polygons.name), request.states[i]);
-            using enum Transparent::Place;
-            for (const Transparent::Place place : {Behind, Unordered, InFront}) {
-                add(place, i,
-                    effects[i].add(fleet.placed()[i], place, strength, request.articulated_parts, light, geometry));
+            for (const Transparent::Place place : {Transparent::Place::Behind, Transparent::Place::InFront}) {
+                Shape shape = empty_shape(aircraft.parts[0]);
+                effects[i].draw(aircraft, place, strength, shape);
+                add(place, i, geometry.add(vertices, indices));
             }
         }
+    }
+
+    Shape empty_shape(const glm::dmat4& body_to_eye_world) {
+        vertices.clear();
+        indices.clear();
+        return {body_to_eye_world, vertices, indices};
     }
 
     /// Adds the dashes of the ribbon, except dashes that intersect the box of an aircraft: they have no painting order.
@@ -785,7 +712,7 @@ double height_of_clouds_m(const landscape::Ground& ground, const scene::AirSetti
 } // namespace
 
 Transparents::Transparents(const Scene& scene, const scene::Settings& settings, const nature::Daylight& day)
-    : parts_(new Parts{scene, {}, {}, 0.0, {}, {}, {}, {}, {}, {}}) {
+    : parts_(new Parts{scene, {}, {}, 0.0, {}, {}, {}, {}, {}, {}, {}, {}}) {
     if (settings.air.clouds > 0.0) {
         parts_->clouds.emplace(settings.air.clouds);
         parts_->cloud_height_m = height_of_clouds_m(*scene.ground, settings.air);
@@ -793,8 +720,10 @@ Transparents::Transparents(const Scene& scene, const scene::Settings& settings, 
     }
     if (settings.view.path_ribbon && scene.path) { parts_->ribbon.emplace(*scene.path); }
     for (const std::uint32_t model : scene.aircraft) {
-        const AircraftEffects& effects = parts_->effects.emplace_back(*scene.models[model], settings.surface);
-        parts_->effect_bounds.push_back(effects.bounds());
+        std::optional<AxisAlignedBox>& bounds = parts_->effect_bounds.emplace_back();
+        if (settings.surface.effects == true) {
+            bounds = parts_->effects.emplace_back(scene.models[model]->polygons).bounds();
+        }
     }
 }
 
@@ -822,7 +751,7 @@ void Transparents::make(
         if (has_glass(aircraft)) { parts.add(Transparent::Place::Glass, i, {}); }
     }
     if (parts.ribbon) { parts.add_ribbon(view, request.states.front().time_s, fleet.bounding_boxes()); }
-    std::ranges::sort(parts.list, {}, [](const Transparent& one) { return std::pair(one.box, one.place); });
+    std::ranges::stable_sort(parts.list, {}, [](const Transparent& one) { return std::pair(one.box, one.place); });
 }
 
 std::span<const std::optional<AxisAlignedBox>> Transparents::effect_bounds() const { return parts_->effect_bounds; }

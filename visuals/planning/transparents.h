@@ -31,7 +31,7 @@ struct Transparent {
         Apart,     ///< Has a box of its own: before the group if the centre of that box is farther away, else last.
         Behind,    ///< An effect, painted before its aircraft.
         Glass,     ///< Transparent surfaces of an aircraft that is painted by depth; has no range.
-        Unordered, ///< A disc without a place before or after its aircraft, a mesh: that is painted by depth.
+        Disc,      ///< One of PlacedAircraft::discs, in their order; in painting order it comes between polygons.
         InFront,   ///< An effect, painted after its aircraft.
         CloudLayer ///< The layer of clouds at Transparents::cloud_height_m(); has no box.
     };
@@ -58,7 +58,7 @@ struct EffectStrength {
 EffectStrength strength_of(const sim::AircraftKind* kind, const sim::AircraftState& state);
 
 /// All transparent things of one view, as one list: a layer of clouds, the first aircraft's path as a ribbon of dashes,
-/// effects around aircraft (discs of fast rotors and propellers; if the settings say so, plumes and vapour) and glass.
+/// discs of fast rotors and propellers, effects around aircraft (plumes and vapour, if the settings say so) and glass.
 class Transparents {
 public:
     /// The scene must outlive it. Loading work.

@@ -86,8 +86,9 @@ struct SurfaceSettings {
     std::string order_cache = "user";
     /// Whether aircraft, trees and houses cast shadows on the ground.
     bool shadows = true;
-    /// Whether exhaust, afterburners and vapour are shown.
-    bool effects = false;
+    /// What is seen around aircraft. Nothing: rotors and propellers that turn fast are discs. True: exhaust,
+    /// afterburners and vapour, too. False: none of these; the blades of rotors are drawn as they stand.
+    std::optional<bool> effects = std::nullopt;
     /// The largest error of a mesh's level of detail on the screen.
     double aircraft_error_px = 1.0;
     /// Whether the pictures on aircraft are drawn; else they become colours of vertices.

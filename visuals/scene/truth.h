@@ -13,9 +13,9 @@
 // The ground truth of a picture: what each pixel shows, as numbers. A pixel shows the polygon that its middle shows.
 //
 // Clouds count where they cover at least half of the background at the pixel's middle; glass counts as its aircraft.
-// The discs of turning rotors, the path's ribbon, effects (plumes, vapour), instruments and all that lies over the
-// picture are left out: truth and boxes are those of solid surfaces, of rotors those of the blades. Shadows belong to
-// what they lie on.
+// The path's ribbon, effects (discs of rotors, plumes, vapour), instruments and all that lies over the picture are left
+// out: truth and boxes are those of solid surfaces. Of a rotor that is a disc nothing but the hub is solid;
+// SurfaceSettings::effects false shows blades in pictures and truth. Shadows belong to what they lie on.
 
 namespace octant::visuals::scene {
 

@@ -75,7 +75,7 @@ TEST_CASE("OBJ materials come in the order of their first polygon, with colours 
 
 TEST_CASE("what an MTL file calls clear is apart from the body of an OBJ file") {
     file_with("glass.mtl", "newmtl glass\nTr 0\nd 0.25\nnewmtl tinted\nTr 0.25\nnewmtl hull\nd 1\nnewmtl odd\nTr 1\n"
-                           "newmtl worse\nd -f 2\n");
+                           "newmtl worse\nd -halo 0.5\n");
     std::string text = std::string(three) + "mtllib glass.mtl\n";
     for (const std::string name : {"glass", "tinted", "hull", "odd", "worse"}) {
         text += "usemtl " + name + "\nf 1 2 3\n";
@@ -90,6 +90,10 @@ TEST_CASE("what an MTL file calls clear is apart from the body of an OBJ file") 
     };
     CHECK(opacity(0) == 0.25F);
     CHECK(opacity(1) == 0.75F);
+    const auto about = std::ranges::count_if(parts.body.notes, [](const std::string& note) {
+        return note.ends_with("glass.mtl:9: 'Tr 1' is not read as an opacity, nor are others like it");
+    });
+    CHECK(about == 1);
 }
 
 TEST_CASE("a missing MTL file is noted") {

@@ -107,6 +107,17 @@ TEST_CASE("material faults are refused at their line") {
     CHECK(mtl("newmtl a\nKd 1 1\n") == "bad.mtl:2: expected Kd and three numbers 0..1, got 'Kd 1 1'");
     CHECK(mtl("newmtl a\nKd 1 1 1.5\n") == "bad.mtl:2: expected Kd and three numbers 0..1, got 'Kd 1 1 1.5'");
     CHECK(mtl("newmtl a\nKd 1 nan 1\n") == "bad.mtl:2: expected Kd and three numbers 0..1, got 'Kd 1 nan 1'");
+    CHECK(mtl("newmtl a\nillum glass\n") == "bad.mtl:2: expected illum and a number of 0 to 10, got 'glass'");
+    CHECK(mtl("newmtl a\nillum\n") == "bad.mtl:2: expected illum and a number, got none");
+    CHECK(mtl("newmtl a\nillum 11\n") == "bad.mtl:2: expected illum and a number of 0 to 10, got '11'");
+    CHECK(mtl("newmtl a\nillum 5 7\n") == "bad.mtl:2: expected the end of the line, got '7'");
+    CHECK(mtl("newmtl a\nd clear\n") == "bad.mtl:2: expected d and a number, got 'clear'");
+    CHECK(mtl("newmtl a\nTr nan\n") == "bad.mtl:2: expected Tr and a number, got 'nan'");
+    CHECK(mtl("newmtl a\nmap_Kd -shift 1 a.png\n") == "bad.mtl:2: expected an option of MTL pictures, got '-shift'");
+    for (const std::string line : {"illum 5", "d 1", "Tr 0", "map_Kd a.png", "map_Ke a.png"}) {
+        const std::string word = line.substr(0, line.find(' '));
+        CHECK(mtl(line + "\n") == "bad.mtl:1: expected newmtl before " + word + ", got " + word);
+    }
     CHECK(mtl("newmtl a\nnewmtl b\nnewmtl a\n") == "bad.mtl:3: expected a new material name, got 'a' again");
 }
 

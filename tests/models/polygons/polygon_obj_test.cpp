@@ -75,7 +75,7 @@ TEST_CASE("without a material file the names are kept in the default colour") {
 }
 
 TEST_CASE("materials with Fresnel's reflection are mirrors, those of other models of light are not") {
-    octant::write_file(scratch("mirrors.mtl"), "illum 5\nnewmtl pane\nillum 5\nnewmtl clear\nd 0.5\nillum 7\n"
+    octant::write_file(scratch("mirrors.mtl"), "newmtl pane\nillum 5\nnewmtl clear\nd 0.5\nillum 7\n"
                                                "newmtl paint\nillum 2\nnewmtl plain\nKd 1 1 1\n");
     const std::vector<Material> materials = read_mtl(scratch("mirrors.mtl")).materials;
     REQUIRE(materials.size() == 4);

@@ -94,6 +94,8 @@ TEST_CASE("draw-order says whether the order was kept, and else the same") {
         }
     }
     CHECK_FALSE(results_of_run("draw-order", {"concave"}).contains("from_cache"));
+    CHECK_FALSE(results_of_run("draw-order", {"concave", "--order-cache", "none"}).contains("from_cache"));
+    CHECK_FALSE(fs::exists("none")); // no folder of that name
 }
 
 TEST_CASE("two programs may order one model into one cache at once") {

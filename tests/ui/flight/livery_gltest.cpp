@@ -96,8 +96,9 @@ struct Comparison {
 
 constexpr int bound = 12; ///< levels of 255
 
-/// Pictures of both renderers from so many directions, 1.3 to 4 radii away, before black.
-Comparison compared(const std::string& file, scene::HiddenSurface hidden, int views) {
+/// Pictures of both renderers from so many directions, 1.3 to 4 radii away, before black, by even light and the sun's.
+Comparison compared(
+    const std::string& file, scene::HiddenSurface hidden, int views, float ambient = 1.0F, float sunlight = 0.0F) {
     settings::RunSettings wanted;
     wanted.path.terrain = "none";
     wanted.path.aircraft = {file};
@@ -128,6 +129,8 @@ Comparison compared(const std::string& file, scene::HiddenSurface hidden, int vi
         scene::FramePlan plan = planner.plan({scene::camera_looking_at(eye_m, states[0].position_m), states}).plan;
         const std::vector<std::uint32_t> smooth = plan.smooth;
         keep_only_aircraft(plan);
+        plan.ambient = glm::vec3(ambient);
+        plan.sunlight = glm::vec3(sunlight);
         plan.smooth = smooth; // triangles of refined meshes have no flat colours
         std::array<scene::Picture, 2> pictures;
         for (std::size_t i = 0; i < renderers.size(); ++i) {
@@ -166,6 +169,16 @@ TEST_CASE("both renderers show the same livery, in painting order, by depth and 
         CHECK(found.pixels > 8000);
         CHECK(found.share() < 0.005);
     }
+}
+
+TEST_CASE("both renderers show a pale livery as bright where it has more than full light") {
+    const bool is_mesh = GENERATE(false, true);
+    const std::string file =
+        is_mesh ? livery_aircraft("pale-mesh", stripes, 60, 24) : livery_aircraft("pale", stripes, 16, 12);
+    const Comparison found = compared(file, scene::HiddenSurface::Octant, 8, 0.5F, 0.9F);
+    INFO((is_mesh ? "refined: " : "polygons: ") << found.different << " of " << found.pixels);
+    CHECK(found.pixels > 8000);
+    CHECK(found.share() < 0.005);
 }
 
 TEST_CASE("both renderers show the same of aircraft without pictures") {

@@ -1,9 +1,14 @@
+#include "models/polygons/obj_reader.h"
+#include "visuals/draworder/ordered_model.h"
 #include "visuals/planning/transparents.h"
 
 #include <catch2/catch.hpp>
 #include <glm/geometric.hpp>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -47,24 +52,27 @@ PolygonModel helicopter(double rotor_down_m) {
     return model;
 }
 
-/// Triangles before and after the aircraft, for an eye at a place of its body axes, and those without a place.
+/// The model with an order that is right for every eye at every angle of its rotors.
+AircraftModel ordered_aircraft(const PolygonModel& model) {
+    visuals::draworder::OrderedModel ordered = visuals::draworder::ordered(model);
+    return aircraft_model(std::move(ordered.model), std::move(ordered.order), glm::dvec3(0.0));
+}
+
+/// What of one aircraft at the origin an eye in its body axes sees.
 struct Painted {
-    std::size_t before = 0;
+    std::size_t before = 0; ///< triangles of effects before the aircraft
     std::size_t after = 0;
-    std::size_t unordered = 0;
+    std::size_t discs = 0; ///< triangles of discs
+    int polygons = 0;      ///< of the aircraft itself
     std::optional<AxisAlignedBox> bounds;
     std::vector<float> depths; ///< of the triangles in their order, as OverlayVertex::depth
 };
 
 Painted painted(const PolygonModel& model, const glm::dvec3& eye_m, double load_factor = 1.0,
-    std::span<const ArticulatedPart> articulated_parts = {}, const SurfaceSettings& surface = {.effects = true},
-    bool has_mesh = false) {
+    std::span<const ArticulatedPart> articulated_parts = {}, const SurfaceSettings& surface = {.effects = true}) {
     Scene scene;
     scene.ground = cell_ground(2, 10.0, [](double, double) { return -500.0; });
-    AircraftModel aircraft = convex_aircraft(model);
-    const models::TriangleMesh mesh = models::polygons::mesh_from_polygons(model);
-    if (has_mesh) { add_levels(aircraft, std::vector{MeshSource{&mesh, 0.0}}, 0.1); }
-    scene.add_model(std::move(aircraft));
+    scene.add_model(convex_aircraft(model));
     scene.aircraft = {0};
     Settings settings = plain_settings();
     settings.surface = surface;
@@ -80,7 +88,9 @@ Painted painted(const PolygonModel& model, const glm::dvec3& eye_m, double load_
     Fleet fleet(scene, settings);
     fleet.place(view, request, transparents.effect_bounds());
     transparents.make(view, request, fleet, plan);
-    Painted painted{0, 0, 0, transparents.effect_bounds().front(), {}};
+    Painted painted;
+    painted.polygons = std::as_const(fleet).placed().front().polygon_count;
+    painted.bounds = transparents.effect_bounds().front();
     const OverlayDraw draw = transparents.draw();
     for (std::size_t i = 0; i < draw.indices.size(); i += 3) {
         painted.depths.push_back(draw.vertices[draw.indices[i]].depth);
@@ -89,7 +99,7 @@ Painted painted(const PolygonModel& model, const glm::dvec3& eye_m, double load_
         using enum Transparent::Place;
         (one.place == InFront     ? painted.after
             : one.place == Behind ? painted.before
-                                  : painted.unordered) += one.range.count / 3;
+                                  : painted.discs) += one.range.count / 3;
     }
     return painted;
 }
@@ -113,60 +123,170 @@ TEST_CASE("vapour lies beyond each wingtip and only under load") {
     CHECK(with.before > without.before); // of the left one
 }
 
-TEST_CASE("a disc is painted beside its aircraft where a plane parts it from the rest, else by depth on meshes") {
-    const glm::dvec3 above_m(-20.0, 3.0, -15.0);
-    const PolygonModel model = helicopter(-1.6);
-    CHECK(painted(model, above_m).after > 0);
-    CHECK(painted(model, above_m).before == 0);
-    CHECK(painted(model, {-20.0, 3.0, 15.0}).before > 0);
-    CHECK(painted(model, {-20.0, 3.0, 15.0}).after == 0);
-    const PolygonModel amid = helicopter(0.0);
-    CHECK(painted(amid, above_m).after + painted(amid, above_m).before + painted(amid, above_m).unordered == 0);
-    CHECK(painted(amid, above_m, 1.0, {}, {.effects = true}, true).unordered > 0);
-    CHECK(painted(model, above_m, 1.0, {}, {.effects = true}, true).unordered == 0);
+namespace {
+
+/// A fuselage between two propellers whose planes it crosses, each before its nacelle.
+PolygonModel twin() {
+    PolygonModel model = box_model({6.0, 0.8, 0.9});
+    for (const double side : {-1.0, 1.0}) {
+        add_part(model, "nacelle " + std::to_string(side), {0.0, 2.6 * side, 0.2}, {1.5, 0.4, 0.4});
+        const glm::dvec3 hub_m(1.8, 2.6 * side, 0.2);
+        add_part(model, "propeller " + std::to_string(side), hub_m, {0.03, 1.5, 0.1});
+        model.pivots.push_back(
+            {static_cast<std::uint32_t>(model.parts.size() - 1), hub_m, {1.0, 0.0, 0.0}, 20.0 * side});
+    }
+    return model;
 }
 
-TEST_CASE("fast rotors have discs without a setting; slow and held ones and the paper's order have none") {
+/// How far along a direction from the eye at the origin a polygon is hit from its front.
+std::optional<double> hit(const ViewPolygon& polygon, const glm::dvec3& along) {
+    const glm::dvec3& first_m = polygon[0].at_m;
+    const glm::dvec3 normal = glm::cross(polygon[1].at_m - first_m, polygon[2].at_m - first_m);
+    if (glm::dot(normal, along) >= 0.0) { return std::nullopt; }
+    const double away = glm::dot(normal, first_m) / glm::dot(normal, along);
+    for (std::size_t i = 0; i < polygon.size(); ++i) {
+        const glm::dvec3& from_m = polygon[i].at_m;
+        const glm::dvec3& to_m = polygon[(i + 1) % polygon.size()].at_m;
+        if (glm::dot(glm::cross(to_m - from_m, away * along - from_m), normal) < 0.0) { return std::nullopt; }
+    }
+    return away > 0.0 ? std::optional(away) : std::nullopt;
+}
+
+/// Along lines of sight through discs: how often something is seen before and behind them, and how often that is
+/// painted on the wrong side.
+struct Passed {
+    int before = 0;
+    int behind = 0;
+    int wrong = 0;
+};
+
+void look_through(const PlacedAircraft& aircraft, std::size_t number, PlaceDice& dice, Passed& passed) {
+    const PlacedDisc& disc = aircraft.discs[number];
+    const WorldCircle circle = place_disc(*aircraft.model, aircraft.parts, disc.disc, disc.side);
+    const glm::dvec3 aside = glm::normalize(glm::cross(circle.axis, dice.direction()));
+    const glm::dvec3 point_m = circle.centre_m + std::sqrt(dice.between(0.01, 0.99)) * circle.radius_m * aside;
+    const auto count = [&](double away, bool is_painted_later) {
+        if (std::abs(away - 1.0) < 1e-6) { return; }
+        ++(away < 1.0 ? passed.before : passed.behind);
+        passed.wrong += (away < 1.0) != is_painted_later ? 1 : 0;
+    };
+    ViewPolygon polygon;
+    for (std::size_t r = 0; r < aircraft.ranges.size(); ++r) {
+        const IndexRange& range = aircraft.ranges[r];
+        for (const std::uint32_t i :
+            aircraft.list.subspan(range.first_polygon, static_cast<std::size_t>(range.polygons))) {
+            place_polygon(aircraft, i, polygon);
+            if (const auto away = hit(polygon, point_m)) { count(*away, r >= disc.range); }
+        }
+    }
+    for (std::size_t other = 0; other < aircraft.discs.size(); ++other) {
+        const WorldCircle met =
+            place_disc(*aircraft.model, aircraft.parts, aircraft.discs[other].disc, aircraft.discs[other].side);
+        const double away = glm::dot(met.centre_m, met.axis) / glm::dot(point_m, met.axis);
+        const bool is_met = away > 0.0 && glm::distance(away * point_m, met.centre_m) < met.radius_m;
+        if (other != number && is_met) { count(away, other > number); }
+    }
+}
+
+Passed look_through_discs(const PolygonModel& model, std::size_t discs) {
+    Scene scene = small_scene({ordered_aircraft(model)}, {0});
+    const Settings settings = plain_settings();
+    Fleet fleet(scene, settings);
+    PlaceDice dice(7);
+    Passed passed;
+    std::size_t most = 0;
+    for (int eye = 0; eye < 300; ++eye) {
+        std::array states{state_at({0.0, 0.0, 0.0}, dice.attitude())};
+        states.front().time_s = dice.between(0.0, 1.0);
+        const Camera camera = camera_looking_at(dice.direction() * dice.between(5.0, 40.0), {0.0, 0.0, 0.0});
+        fleet.place(frame_view(camera, {640, 480}, 0.0), {.camera = camera, .states = states},
+            std::array{std::optional<AxisAlignedBox>()});
+        const PlacedAircraft& aircraft = std::as_const(fleet).placed().front();
+        most = std::max(most, aircraft.discs.size());
+        for (std::size_t disc = 0; disc < aircraft.discs.size(); ++disc) {
+            for (int ray = 0; ray < 40; ++ray) { look_through(aircraft, disc, dice, passed); }
+        }
+    }
+    CHECK(most == discs);
+    return passed;
+}
+
+} // namespace
+
+TEST_CASE("what is before a disc is painted after it and what is behind it before, whatever plane it lies in") {
+    for (const PolygonModel& model :
+        {models::polygons::read_obj(OCTANT_SOURCE_DIR "/models/500md.obj"), twin(), helicopter(-1.6)}) {
+        INFO(model.name << " of " << model.parts.size() << " parts");
+        const Passed passed = look_through_discs(model, model.pivots.size());
+        CHECK(passed.before > 500);
+        CHECK(passed.behind > 500);
+        CHECK(passed.wrong == 0);
+    }
+}
+
+TEST_CASE("fast rotors are discs in place of their blades; slow and held ones and the paper's order have blades") {
     const glm::dvec3 above_m(-20.0, 3.0, -15.0);
     PolygonModel model = helicopter(-1.6);
     const SurfaceSettings usual;
-    CHECK(painted(model, above_m, 1.0, {}, usual).after > 0);
-    const std::optional<AxisAlignedBox> bounds = painted(model, above_m, 1.0, {}, usual).bounds;
-    REQUIRE(bounds);
-    CHECK(glm::distance(bounds->min_m, glm::dvec3(-4.0, -4.0, -1.66)) < 0.01); // flat, just above the blades
-    CHECK(glm::distance(bounds->max_m, glm::dvec3(4.0, 4.0, -1.66)) < 0.01);
+    CHECK(painted(model, above_m, 1.0, {}, usual).discs > 0);
+    CHECK(painted(model, above_m, 1.0, {}, usual).polygons == 6);
+    CHECK_FALSE(painted(model, above_m, 1.0, {}, usual).bounds); // its blades are in the model's own
     const std::vector<ArticulatedPart> of_another{{1, 0}};
     const std::vector<ArticulatedPart> held{{0, 0}};
-    CHECK(painted(model, above_m, 1.0, of_another).after > 0);
-    CHECK(painted(model, above_m, 1.0, held).after == 0);
-    CHECK(painted(model, above_m, 1.0, {}, {.order_method = visuals::draworder::OrderMethod::Paper}).after == 0);
+    CHECK(painted(model, above_m, 1.0, of_another).discs > 0);
+    CHECK(painted(model, above_m, 1.0, held).discs == 0);
+    CHECK(painted(model, above_m, 1.0, held).polygons == 12);
+    const Painted paper = painted(model, above_m, 1.0, {}, {.order_method = visuals::draworder::OrderMethod::Paper});
+    CHECK(paper.discs == 0);
+    CHECK(paper.polygons == 12);
+    const Painted without = painted(model, above_m, 1.0, {}, {.effects = false});
+    CHECK(without.discs == 0);
+    CHECK(without.polygons == 12);
     model.pivots.front().turns_per_s = 0.0;
-    CHECK(painted(model, above_m, 1.0, {}, usual).after == 0);
+    CHECK(painted(model, above_m, 1.0, {}, usual).discs == 0);
     CHECK(painted(jet(), {-60.0, 3.0, -5.0}, 1.0, {}, usual).after == 0); // plumes need the setting
+}
+
+TEST_CASE(
+    "what fills its circle, as the fan of a jet, is drawn as it stands, and so is a hub without the roots of blades") {
+    PolygonModel fan = box_model({4.0, 0.8, 1.0});
+    add_part(fan, "fan", {4.5, 0.0, 0.0}, {0.1, 0.7, 0.7});
+    fan.pivots.push_back({1, {4.5, 0.0, 0.0}, {1.0, 0.0, 0.0}, 80.0});
+    const glm::dvec3 ahead_m(20.0, 3.0, -5.0);
+    CHECK(painted(fan, ahead_m).discs == 0);
+    CHECK(painted(fan, ahead_m).polygons == 12);
+    PolygonModel with_hub = helicopter(-1.6);
+    add_part(with_hub, "hub", {0.0, 0.0, -1.7}, {0.4, 0.4, 0.1});
+    add_part(with_hub, "root of a blade", {0.7, 0.0, -1.6}, {0.4, 0.05, 0.05}); // no farther out than a large hub
+    for (std::size_t i = 12; i < 24; ++i) { with_hub.polygons[i].part = 1; }    // one part with the blades
+    CHECK(painted(with_hub, {-20.0, 3.0, -15.0}).discs > 0);
+    CHECK(painted(with_hub, {-20.0, 3.0, -15.0}).polygons == 6 + 7); // body, hub and the end within it
 }
 
 TEST_CASE("blades and spinner that turn in one place have one disc, two rotors one each") {
     const glm::dvec3 above_m(-20.0, 3.0, -15.0);
     PolygonModel model = helicopter(-1.6);
-    const std::size_t one = painted(model, above_m).after;
+    const std::size_t one = painted(model, above_m).discs;
     const auto add_rotor = [&](const glm::dvec3& at_m, const glm::dvec3& half_m) {
         add_part(model, "rotor " + std::to_string(model.parts.size()), at_m, half_m);
         model.pivots.push_back({static_cast<std::uint32_t>(model.parts.size() - 1), at_m, {0.0, 0.0, -1.0}, 8.0});
     };
     add_rotor({0.0, 0.0, -1.6}, {0.1, 4.0, 0.02}); // a second pair of blades
     add_rotor({0.0, 0.0, -1.7}, {0.3, 0.3, 0.1});  // the cap of the hub
-    CHECK(painted(model, above_m).after == one);
+    CHECK(painted(model, above_m).discs == one);
+    CHECK(painted(model, above_m).polygons == 12); // the body and the cap
     add_rotor({9.0, 0.0, -1.6}, {0.1, 4.0, 0.02});
-    CHECK(painted(model, above_m).after > one + one / 2);
+    CHECK(painted(model, above_m).discs > one + one / 2);
 }
 
-TEST_CASE("of two rotors the far one's disc is painted first, whichever comes first in the model") {
+TEST_CASE("without a painting order the far one of two discs is first, whichever comes first in the model") {
     PolygonModel model = helicopter(-1.6);
     const glm::dvec3 at_m(9.0, 0.0, -1.6);
     add_part(model, "fore rotor", at_m, {0.1, 4.0, 0.02});
     model.pivots.push_back({static_cast<std::uint32_t>(model.parts.size() - 1), at_m, {0.0, 0.0, -1.0}, 8.0});
+    const SurfaceSettings by_depth{.hidden_surface = HiddenSurface::DepthBuffer};
     for (const double eye_x_m : {-30.0, 40.0}) {
-        const std::vector<float> depths = painted(model, {eye_x_m, 3.0, -15.0}).depths;
+        const std::vector<float> depths = painted(model, {eye_x_m, 3.0, -15.0}, 1.0, {}, by_depth).depths;
         REQUIRE(depths.size() > 100);
         CHECK(depths.front() < depths.back());
     }
@@ -174,11 +294,16 @@ TEST_CASE("of two rotors the far one's disc is painted first, whichever comes fi
 
 TEST_CASE("a disc has finer circles near the eye and is gone far away") {
     const PolygonModel model = helicopter(-1.6);
-    const std::size_t near = painted(model, {-10.0, 3.0, -10.0}).after;
-    const std::size_t far = painted(model, {-100.0, 3.0, -100.0}).after;
+    const std::size_t near = painted(model, {-10.0, 3.0, -10.0}).discs;
+    const std::size_t far = painted(model, {-100.0, 3.0, -100.0}).discs;
     CHECK(near > far);
     CHECK(far > 0);
-    CHECK(painted(model, {-800.0, 3.0, -800.0}).after == 0);
+    CHECK(painted(model, {-100.0, 3.0, -100.0}).polygons == 6);
+    const glm::dvec3 farther_m(-240.0, 3.0, -240.0); // where it fades the blades are there, too
+    CHECK(painted(model, farther_m).discs > 0);
+    CHECK(painted(model, farther_m).polygons == 12);
+    CHECK(painted(model, {-800.0, 3.0, -800.0}).discs == 0);
+    CHECK(painted(model, {-800.0, 3.0, -800.0}).polygons == 12);
 }
 
 TEST_CASE("afterburners follow thrust, vapour follows load") {
@@ -223,7 +348,7 @@ struct Helicopters {
 
     explicit Helicopters(const std::vector<glm::dvec3>& places_m, double rotor_down_m = -1.6) {
         scene.ground = cell_ground(20, 10.0, [](double, double) { return 0.0; });
-        scene.add_model(convex_aircraft(helicopter(rotor_down_m)));
+        scene.add_model(ordered_aircraft(helicopter(rotor_down_m)));
         for (const glm::dvec3& place_m : places_m) {
             scene.aircraft.push_back(0);
             states.push_back(state_at(place_m, {0.0, 1.0, 0.0, 0.0})); // upright, heading east
@@ -271,8 +396,8 @@ TEST_CASE("a disc is hidden by the ground that reaches into its aircraft's box")
     Helicopters world({{0.0, 0.0, 0.5}}); // the skids are in the ground
     const std::string letters = letters_of(world, camera_looking_at({-30.0, 5.0, 20.0}, {0.0, 0.0, 0.5}));
     INFO(letters);
-    CHECK(letters.find("cdt") != std::string::npos);
-    CHECK(letters.find('a') == std::string::npos); // the aircraft itself is painted in order
+    CHECK(letters.find("cdat") != std::string::npos);
+    CHECK(letters.find('A') == std::string::npos); // between its polygons and those of the ground there is no place
 }
 
 TEST_CASE("aircraft in one another's boxes have depth with their discs, those apart have none") {

@@ -495,3 +495,42 @@ TEST_CASE("what turns beside a refined aircraft is drawn after it by the same de
         CHECK(glm::distance(turned, still) < 1e-4F);
     }
 }
+
+TEST_CASE("blades that turn fast are not drawn by depth either, but their disc is, after all that is opaque") {
+    models::polygons::PolygonModel polygons = box_model({4.0, 4.0, 1.0});
+    const auto first = static_cast<std::uint32_t>(polygons.vertices_m.size());
+    polygons.parts.emplace_back("propeller");
+    polygons.pivots.push_back({1, {5.0, 0.0, 0.0}, {1.0, 0.0, 0.0}, 30.0});
+    for (const glm::dvec3& at_m : {glm::dvec3(5, -0.2, 0.5), glm::dvec3(5, 0.2, 0.5), glm::dvec3(5, 0, 6)}) {
+        polygons.vertices_m.push_back(at_m);
+    }
+    for (const std::array<std::uint32_t, 3>& corners : {std::array{0U, 1U, 2U}, std::array{0U, 2U, 1U}}) {
+        polygons.polygons.push_back({static_cast<std::uint32_t>(polygons.corner_vertices.size()), 3, 0, 1});
+        for (const std::uint32_t corner : corners) { polygons.corner_vertices.push_back(first + corner); }
+    }
+    planning::AircraftModel model = convex_aircraft(polygons);
+    planning::add_progressive(model, hierarchy(), 0.2);
+    models::TriangleMesh propeller; // a blade of two triangles, and a hub of two between them
+    propeller.vertices_m = {{5, -0.2, 0.5}, {5, 0.2, 0.5}, {5, 0, 6}, {5.5, -0.5, -0.5}, {5.5, 0.5, -0.5},
+        {5.5, 0.5, 0.5}, {5.5, -0.5, 0.5}};
+    propeller.triangles = {{0, 1, 2}, {3, 4, 5}, {0, 2, 1}, {3, 5, 6}};
+    const std::array<planning::MovingPartMesh, 1> parts{{{&propeller, 0, {}}}};
+    planning::add_moving_parts(model, parts);
+    CHECK(model.turning.polygons == 2);
+    planning::Scene scene = small_scene({std::move(model)}, {0});
+    scene::Settings settings = plain_settings();
+    const std::vector<planning::ArticulatedPart> held{{0, 0}};
+    for (const bool is_held : {false, true}) {
+        planning::Planner planner(scene, settings);
+        const std::array states{state_at({0, 30, 0})};
+        const scene::Camera camera = scene::camera_looking_at({20, 0, -5}, {0, 30, 0});
+        planning::PlanRequest request{camera, states};
+        if (is_held) { request.articulated_parts = held; }
+        const scene::FramePlan& plan = planner.plan(request).plan;
+        std::uint32_t indices = 0;
+        for (const scene::AircraftDraw& draw : plan.aircraft) { indices += draw.index_count; }
+        CHECK(indices == (is_held ? 12 : 6));
+        CHECK((plan.steps.back().content == scene::PaintStep::Content::Transparent) == !is_held);
+        CHECK(plan.steps.back().depth == scene::DepthUse::Nearest);
+    }
+}

@@ -240,6 +240,39 @@ TEST_CASE("a shadow whose penumbra is wider than the aircraft's parts fades, and
     for (const auto& both : {std::vector{20.0, 1500.0}, {1500.0, 20.0}}) { CHECK(at(both) == low); }
 }
 
+TEST_CASE("a fast rotor casts the faint shadow of a disc, the same at every angle") {
+    Shadowed world;
+    models::polygons::PolygonModel rotor = box_model({6.0, 0.2, 0.02});
+    rotor.pivots.push_back({0, {0.0, 0.0, 0.0}, {0.0, 0.0, 1.0}, 8.0});
+    world.scene.models.clear();
+    world.scene.add_model(convex_aircraft(rotor));
+    world.scene.aircraft = {0};
+    world.states = {state_at({20, 10, 30})};
+    const auto shadow_at = [&](double time_s) {
+        world.states.front().time_s = time_s;
+        Planner planner(world.scene, world.settings);
+        const FramePlan& plan = planner.plan({world.camera, world.states}).plan;
+        std::vector<glm::vec3> places_m;
+        for (const models::ColourVertex& vertex : plan.shadow_vertices) { places_m.push_back(vertex.position_m); }
+        for (const std::uint32_t index : plan.ground.indices) {
+            if (!is_shadow(plan, index)) { continue; }
+            const std::uint32_t light = colour_of(plan, index) & 255U; // the ground's is 128
+            CHECK(light > 0x46U + 30U);
+            CHECK(light < 128U);
+        }
+        return places_m;
+    };
+    const std::vector<glm::vec3> still_m = shadow_at(0.0);
+    CHECK(still_m.size() > 20);
+    CHECK(shadow_at(0.03) == still_m); // a quarter turn
+    world.scene.models.clear();
+    rotor.pivots.clear();
+    world.scene.add_model(convex_aircraft(rotor));
+    Planner planner(world.scene, world.settings);
+    const FramePlan& plan = planner.plan({world.camera, world.states}).plan;
+    CHECK(std::ranges::any_of(plan.shadow_vertices, [](const auto& vertex) { return vertex.colour == darkest; }));
+}
+
 TEST_CASE("with a depth buffer shadows come apart from the ground") {
     Shadowed world;
     world.settings.surface.hidden_surface = HiddenSurface::DepthBuffer;

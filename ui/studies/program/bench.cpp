@@ -47,13 +47,22 @@ struct Feature {
     double on = 1.0; ///< the share that is measured
 };
 
+double share_in(double value) { return value; }
+
+double share_in(const std::optional<bool>& value) { return value.value_or(false) ? 1.0 : 0.0; }
+
 /// A feature that is a field of a part of the settings: a flag or a share.
 template <auto part, auto field>
 constexpr Feature feature(std::string_view name, double on = 1.0) {
-    return {name, [](const RunSettings& settings) { return static_cast<double>((settings.*part).*field); },
+    return {name, [](const RunSettings& settings) { return share_in((settings.*part).*field); },
         [](RunSettings& settings, double share) {
             auto& value = (settings.*part).*field;
-            value = static_cast<std::remove_reference_t<decltype(value)>>(share);
+            using Value = std::remove_reference_t<decltype(value)>;
+            if constexpr (std::is_same_v<Value, double>) {
+                value = share;
+            } else {
+                value = share != 0.0;
+            }
         },
         on};
 }

@@ -39,7 +39,7 @@ vec3 smooth_light(vec3 picture) {
 }
 #elif defined(TEXTURED)
 vec3 smooth_light(vec3 picture) {
-    return smooth_colour * picture * haze_part.a + haze_part.rgb;
+    return min(smooth_colour * picture, vec3(1.0)) * haze_part.a + haze_part.rgb;
 }
 #else
 vec3 smooth_light(vec3 picture) {
@@ -79,7 +79,7 @@ void main() {
     }
     cut();
 #ifdef TEXTURED
-    vec3 flat_light = flat_colour.rgb * picture.rgb * haze_part.a + haze_part.rgb;
+    vec3 flat_light = min(flat_colour.rgb * picture.rgb, vec3(1.0)) * haze_part.a + haze_part.rgb;
     float share = step_opacity.x < 1.0 ? step_opacity.x * picture.a : 1.0;
     pixel = vec4(mix(flat_light, smooth_light(picture.rgb), flat_colour.a), share);
 #else

@@ -64,9 +64,10 @@ vec4 mirror(float alpha, vec3 place_m, vec3 outwards) {
     return vec4(sky * (share / max(alpha * 255.0 / 254.0, 0.05)), 1.0 - share);
 }
 
-vec3 lit(vec3 colour, vec3 outwards, vec4 mirrored) {
+// At most `most`: 1, or more where the picture's colour is still to come.
+vec3 lit(vec3 colour, vec3 outwards, vec4 mirrored, float most) {
     vec3 light = ambient.rgb + sunlight.rgb * max(dot(outwards, to_sun.xyz), 0.0);
-    return min(colour * light * mirrored.a + mirrored.rgb, vec3(1.0));
+    return min(colour * light * mirrored.a + mirrored.rgb, vec3(most));
 }
 
 void main() {
@@ -81,7 +82,12 @@ void main() {
     bool turned_away = dot(outwards, place.xyz) > 1e-5 * length(place.xyz);
     // Tinted polygons show their tint alone.
     vec4 flat_mirror = mirror(flat_tint.a > 0.0 ? 1.0 : face_colour.a, place.xyz, outwards);
-    vec3 flat_light = lit(mix(face_colour.rgb, flat_tint.rgb, flat_tint.a), outwards, flat_mirror);
+#ifdef TEXTURED
+    float most = texture_number == 0u || flat_tint.a > 0.0 ? 1.0 : 380.0 / 255.0; // as the raster renderer
+#else
+    float most = 1.0;
+#endif
+    vec3 flat_light = lit(mix(face_colour.rgb, flat_tint.rgb, flat_tint.a), outwards, flat_mirror, most);
     vec4 smooth_mirror = mirror(smooth_tint.a > 0.0 ? 1.0 : own_colour.a, place.xyz, turn * normal);
 #if defined(PHONG) || defined(TEXTURED)
     haze_part = vec4(air.rgb * air.a, 1.0 - air.a);
@@ -102,9 +108,9 @@ void main() {
     smooth_haze_part = vec4(
         haze_part.rgb + min(smooth_mirror.rgb, vec3(1.0)) * haze_part.a, haze_part.a * smooth_mirror.a);
 #elif defined(TEXTURED)
-    smooth_colour = lit(own, turn * normal, smooth_mirror);
+    smooth_colour = lit(own, turn * normal, smooth_mirror, most);
 #else
-    smooth_colour = mix(lit(own, turn * normal, smooth_mirror), air.rgb, air.a);
+    smooth_colour = mix(lit(own, turn * normal, smooth_mirror, most), air.rgb, air.a);
 #endif
     gl_Position = world_to_clip * place;
 }
