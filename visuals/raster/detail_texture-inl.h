@@ -134,8 +134,7 @@ private:
         const auto& [before, next] = right_of_tile;
         const auto& [above, below] = above_and_below;
         const auto half = pair_floats(0.5F);
-        return {own,
-            hn::Mul(smaller_change(hn::Sub(next, own), hn::Sub(own, before)), half),
+        return {own, hn::Mul(smaller_change(hn::Sub(next, own), hn::Sub(own, before)), half),
             hn::Mul(smaller_change(hn::Sub(below, own), hn::Sub(own, above)), half)};
     }
 
@@ -826,8 +825,7 @@ public:
         }
         const auto in_row = [](const ChangeRow& from) HWY_ATTR {
             return [&from](std::size_t x) HWY_ATTR {
-                const auto part = [&](std::size_t k)
-                                      HWY_ATTR { return hn::Load(PixelPairHalves(), &from.part[k][x]); };
+                const auto part = [&](std::size_t k) HWY_ATTR { return hn::Load(PixelPairHalves(), &from.part[k][x]); };
                 return Changes{part(0), part(1), part(2)};
             };
         };

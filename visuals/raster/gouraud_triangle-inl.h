@@ -56,8 +56,8 @@ public:
         max_cover_ = hn::Set(Whole(), PackedGround::limit(triangle.gradients.max[3]));
     }
 
-    /// Writes it for those in even columns of an even row of the tile where PackedGround::sample is fresh, or any sample
-    /// and none is written yet.
+    /// Writes it for those in even columns of an even row of the tile where PackedGround::sample is fresh, or any
+    /// sample and none is written yet.
     HWY_INLINE void put(int row, hn::Vec<Tag> fresh, TileBuffer& buffer) const {
         const Real real;
         const Bits bits;
@@ -73,8 +73,10 @@ public:
         const auto samples = hn::And(hn::BitCast(bits, fresh), is_even_);
         std::uint32_t* const to = buffer.ground_of_row(row) + (column_ + 1) / 2;
         const auto before = hn::LoadU(bits, to);
-        const auto of_own = hn::Eq(hn::And(samples, hn::Set(bits, PackedGround::sample * 0x10001U)), hn::Zero(bits));
-        const auto is_kept = hn::Or(hn::Eq(samples, hn::Zero(bits)), hn::AndNot(hn::Eq(before, hn::Zero(bits)), of_own));
+        const auto without_sample =
+            hn::Eq(hn::And(samples, hn::Set(bits, PackedGround::sample * 0x10001U)), hn::Zero(bits));
+        const auto is_kept =
+            hn::Or(hn::Eq(samples, hn::Zero(bits)), hn::AndNot(hn::Eq(before, hn::Zero(bits)), without_sample));
         hn::StoreU(hn::IfThenElse(is_kept, before, both), bits, to);
     }
 

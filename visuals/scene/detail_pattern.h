@@ -37,9 +37,9 @@ public:
         glm::dvec3(-0.739147362, 0.377951710, 0.557506666), glm::dvec3(0.177324346, -0.689325837, 0.702414384)};
     /// Standard deviation of all levels; the pattern goes from -1 to 1.
     static constexpr double deviation = 0.36;
-    /// A pixel's level is the one whose texels are as wide as the side of a square of the area that the pixel sees of the
-    /// ground, so that slopes of unlike slant beside each other have features of like size; but not narrower than the
-    /// root of this share of the pixel's length there.
+    /// A pixel's level is the one whose texels are as wide as the side of a square of the area that the pixel sees of
+    /// the ground, so that slopes of unlike slant beside each other have features of like size; but not narrower than
+    /// the root of this share of the pixel's length there.
     static constexpr float min_share2_of_length = 0.125F;
     /// Of what a pixel sees of ground, its length over its width, squared, up to which the pattern is seen in full. On
     /// ground at a lower angle it would be streaks: it fades as this grows. The width is the area over the length.
@@ -80,8 +80,9 @@ const DetailPattern& detail_pattern(double sun_azimuth_rad);
 /// The width of the cube at a scale.
 double detail_tile_m(int scale);
 
-/// Texels of the finest level in a metre as the level of a pixel is chosen. In larger pictures and narrower views than of `nominal_focal_px`, up to twice, the
-/// pattern stays as coarse as there, so that the ground has the same features and the finer pixels smoother borders.
+/// Texels of the finest level in a metre as the level of a pixel is chosen. In larger pictures and narrower views than
+/// of `nominal_focal_px`, up to twice, the pattern stays as coarse as there, so that the ground has the same features
+/// and the finer pixels smoother borders.
 double detail_texels_per_m(double focal_px);
 
 /// The position in the pattern at a scale, in cubes, of a point in world axes.

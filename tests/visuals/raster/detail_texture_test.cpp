@@ -283,7 +283,8 @@ TEST_CASE("along a level horizon, where pixels are half sky, their half of groun
     CHECK(changed > picture_px.x / 2);
 }
 
-TEST_CASE("a pixel shows the detail texture of the ground near its middle, whatever little of farther ground it shows") {
+TEST_CASE(
+    "a pixel shows the detail texture of the ground near its middle, whatever little of farther ground it shows") {
     const auto ridge = [&](std::uint32_t far_cover) {
         FlatPlan plan(picture_px);
         FlatTriangle far_ground;
