@@ -52,6 +52,9 @@ float lean_of(const Plant& plant, float lowest_m) {
     return rise_m(plant) > lowest_m ? 1.0F - lowest_m / rise_m(plant) : 0.0F;
 }
 
+/// The number of the covers of closed woods (scene::LandCoverContrast), whose pattern leaves show.
+constexpr std::uint32_t leaves = 64;
+
 constexpr std::uint32_t no_vertex = ~std::uint32_t{0};
 
 std::size_t variant_of(std::uint32_t random_bits) { return random_bits >> 24U & 3U; }
@@ -263,7 +266,7 @@ void PlantMesher::add_crown(const Plant& plant, const Placement& placement, Stan
             if (number == no_vertex) {
                 const float ambient = moved(corner, [&](std::size_t i) { return light[i].ambient; });
                 const float sun = moved(corner, [&](std::size_t i) { return light[i].sun; });
-                number = to.add(places_m_[corner], lit_leaf(plant, leaf, {ambient, sun}));
+                number = to.add(places_m_[corner], lit_leaf(plant, leaf, {ambient, sun}), leaves);
             }
             to.indices.push_back(number);
         }
@@ -294,7 +297,7 @@ void PlantMesher::add_round_outline(const Plant& plant, const Placement& placeme
         const glm::vec3 from_centre =
             crown.within_room(way, radius) * way * glm::vec3(1.0F, 1.0F, crown.half_height);
         return to.add(placement.place_m(plant, glm::vec3(0.0F, 0.0F, crown.centre) + from_centre),
-            lit_leaf(plant, leaf, {sum.y, sum.z}));
+            lit_leaf(plant, leaf, {sum.y, sum.z}), leaves);
     };
     const glm::vec3 to_eye = glm::normalize(
         glm::vec3(placement.eye.x, placement.eye.y, (placement.eye.z - crown.centre) / crown.half_height));
@@ -358,7 +361,7 @@ void PlantMesher::add_tier(
     const auto number_of = [&](Edge& edge, const TierRing& ring, std::size_t side) {
         if (edge.numbers[side] == no_vertex) {
             const glm::vec3 out = out_of_side(turned(side_directions[side], placement.turn));
-            edge.numbers[side] = to.add(edge.at_m[side], lit_leaf(plant, leaf, light_on(out, ring[side].openness)));
+            edge.numbers[side] = to.add(edge.at_m[side], lit_leaf(plant, leaf, light_on(out, ring[side].openness)), leaves);
         }
         return edge.numbers[side];
     };
@@ -381,7 +384,7 @@ void PlantMesher::add_tier(
         }
         if (placement.eye.z < low_height) {
             to.face(std::array{middle_m, lower.at_m[next], lower.at_m[side]},
-                lit_leaf(plant, leaf, light_on(glm::vec3(0.0F, 0.0F, -1.0F), underside)));
+                lit_leaf(plant, leaf, light_on(glm::vec3(0.0F, 0.0F, -1.0F), underside)), leaves);
         }
     }
 }
@@ -454,7 +457,7 @@ void PlantMesher::add_outline(const Plant& plant, StandingMesh& to) const {
         const glm::vec2 off_m = radius_m * glm::vec2(out);
         const float up_m = over_foot_m + half_m * out.z + lean * plant.anchor.height_at_offset_m(off_m);
         const Light light = light_on(0.75F * out + 0.66F * to_eye, 0.85F + 0.10F * out.z);
-        to.add(foot_m + glm::vec3(off_m, up_m), lit_leaf(plant, leaf, light));
+        to.add(foot_m + glm::vec3(off_m, up_m), lit_leaf(plant, leaf, light), leaves);
     }
     for (std::uint32_t i = first + 2; i < to.vertices.size(); ++i) {
         to.indices.insert(to.indices.end(), {first, i - 1, i});

@@ -43,9 +43,9 @@ struct StandingMesh {
     std::vector<models::ColourVertex>& vertices;
     std::vector<std::uint32_t>& indices;
 
-    /// Appends a vertex without the ground's detail pattern.
-    std::uint32_t add(const glm::vec3& at_m, const glm::vec3& colour) {
-        vertices.push_back({at_m, models::packed_colour(colour) & 0x00ffffffU});
+    /// Appends a vertex. `covers`: the number of its land covers, whose detail pattern it shows; 0 = none.
+    std::uint32_t add(const glm::vec3& at_m, const glm::vec3& colour, std::uint32_t covers = 0) {
+        vertices.push_back({at_m, (models::packed_colour(colour) & 0x00ffffffU) | covers << 24U});
         return static_cast<std::uint32_t>(vertices.size() - 1);
     }
 
@@ -63,10 +63,10 @@ struct StandingMesh {
 
     /// Appends a plane convex polygon of one colour, if it faces the eye.
     template <std::size_t corners>
-    void face(const std::array<glm::vec3, corners>& at_m, const glm::vec3& colour) {
+    void face(const std::array<glm::vec3, corners>& at_m, const glm::vec3& colour, std::uint32_t covers = 0) {
         if (!faces_eye(at_m[0], at_m[1], at_m[2])) { return; }
-        const std::uint32_t first = add(at_m[0], colour);
-        for (std::size_t i = 1; i < corners; ++i) { add(at_m[i], colour); }
+        const std::uint32_t first = add(at_m[0], colour, covers);
+        for (std::size_t i = 1; i < corners; ++i) { add(at_m[i], colour, covers); }
         for (std::uint32_t i = 2; i < corners; ++i) { triangle(first, first + i - 1, first + i); }
     }
 };

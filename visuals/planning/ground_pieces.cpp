@@ -195,6 +195,7 @@ private:
     /// Whether the current triangle is water, or belongs to scenery and not to the ground.
     bool is_on_water() const {
         const std::uint32_t* const corner = &ground_->triangles.indices[std::size_t{3} * number_];
+        if (scene::surface_of(ground_->triangles, {}, corner) != models::SurfaceClass::Terrain) { return true; }
         return std::all_of(corner, corner + 3,
             [&](std::uint32_t vertex) { return ground_->triangles.vertices[vertex].colour >> 24U == 0; });
     }

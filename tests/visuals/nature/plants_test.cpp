@@ -174,6 +174,25 @@ TEST_CASE("no ground is seen between a broad-leaved tree's crown and its trunk")
     CHECK(gaps == 0);
 }
 
+TEST_CASE("leaves show the pattern of closed woods, trunks and houses none") {
+    PlantMesher mesher(Daylight({}));
+    for (const PlantKind kind : {PlantKind::Broadleaf, PlantKind::Conifer, PlantKind::Shrub}) {
+        for (const float height_px : {10.0F, 30.0F, 60.0F, 100.0F, 300.0F}) {
+            Triangles triangles;
+            mesher.add({kind, {glm::vec3(60.0F, 0.0F, -6.0F), glm::vec2(0.0F)}, 3.0F, 9.0F, height_px}, triangles.mesh);
+            INFO(height_px);
+            for (const ColourVertex& vertex : triangles.vertices) {
+                // Only trunks, which are brown, have more red than green.
+                const bool is_trunk = (vertex.colour & 0xffU) > (vertex.colour >> 8U & 0xffU);
+                REQUIRE(vertex.colour >> 24U == (is_trunk ? 0U : 64U));
+            }
+        }
+    }
+    Triangles triangles;
+    add_house({{glm::vec3(30.0F, 0.0F, -6.0F), glm::vec2(0.0F)}}, Daylight({}), triangles.mesh);
+    for (const ColourVertex& vertex : triangles.vertices) { REQUIRE(vertex.colour >> 24U == 0); }
+}
+
 TEST_CASE("plants and houses stay within their circles and above their ground") {
     PlantMesher mesher(Daylight({}));
     Views views;

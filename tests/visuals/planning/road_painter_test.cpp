@@ -2,6 +2,7 @@
 #include "visuals/landscape/ground.h"
 #include "visuals/landscape/ground_palette.h"
 #include "visuals/planning/ground_pieces.h"
+#include "visuals/scene/truth.h"
 #include "visuals/terrain/bisection_ground_builder.h"
 
 #include <catch2/catch.hpp>
@@ -147,8 +148,8 @@ TEST_CASE("no road is painted on trees and houses, and none of them stands on on
     const PaintedRoads world(over_a_road(25.0), true);
     int things = 0;
     for (std::uint32_t t = 0; t < world.ground.indices.size() / 3; ++t) {
-        const bool is_scenery = std::all_of(&world.ground.indices[3 * t], &world.ground.indices[3 * t] + 3,
-            [&](std::uint32_t v) { return world.ground.vertices[v].colour >> 24U == 0; });
+        const std::uint32_t* const corners = &world.ground.indices[std::size_t{3} * t];
+        const bool is_scenery = scene::surface_of(world.ground, {}, corners) != models::SurfaceClass::Terrain;
         if (!is_scenery) { continue; }
         ++things;
         for (const GroundDecal& paint : world.pieces.decals()) { REQUIRE(paint.triangle != t); }
