@@ -1,9 +1,9 @@
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <initializer_list>
 #include <span>
 #include <string_view>
 
@@ -55,17 +55,25 @@ private:
 /// The hash of so many bytes that time counts: of four hashes, each of a quarter of them. A word of one need not wait
 /// for those of the others.
 inline std::uint64_t hash_by_quarters(std::span<const std::byte> bytes) {
-    constexpr std::size_t word = 8;
-    const std::size_t words = bytes.size() / (4 * word); // of each quarter; what is left over belongs to the last one
-    std::array<Hash, 4> quarters;
-    for (std::size_t at = 0; at < words * word; at += word) {
-        for (std::size_t i = 0; i < quarters.size(); ++i) {
-            quarters[i].add(bytes.subspan(i * words * word + at, word));
-        }
+    const std::size_t size = bytes.size() / 32 * 8; // what is left over belongs to the last quarter
+    const auto word_at = [&](std::size_t at) {
+        std::uint64_t word = 0;
+        std::memcpy(&word, bytes.data() + at, 8);
+        return word;
+    };
+    Hash first;
+    Hash second;
+    Hash third;
+    Hash last;
+    for (std::size_t at = 0; at < size; at += 8) {
+        first.add_word(word_at(at));
+        second.add_word(word_at(size + at));
+        third.add_word(word_at(2 * size + at));
+        last.add_word(word_at(3 * size + at));
     }
-    quarters.back().add(bytes.subspan(4 * words * word));
+    last.add(bytes.subspan(4 * size));
     Hash all;
-    for (const Hash& quarter : quarters) { all.add_word(quarter.value()); }
+    for (const Hash& quarter : {first, second, third, last}) { all.add_word(quarter.value()); }
     return all.value();
 }
 

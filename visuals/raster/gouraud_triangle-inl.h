@@ -358,7 +358,7 @@ HWY_INLINE void paint_strip(const Triangle& triangle, const TileJob& job, const 
     auto gradients = strip_gradients(triangle.gradients, box_px, left - box.left);
     [[maybe_unused]] const auto ground = ground_of_parts<kind, parts>(triangle, job, left);
     using Values = PartValues<parts>;
-    const auto paint = [&](int row, const Values& fresh) HWY_ATTR {
+    const auto paint = [&](int row, const Values& fresh) HWY_ATTR __attribute__((always_inline)) {
         for (std::size_t i = 0; i < parts; ++i) {
             const auto at = static_cast<std::size_t>(row * tile_width + left) + i * part_px;
             const auto counts = hn::PopulationCount(fresh[i]);

@@ -334,7 +334,8 @@ void TriangleSetup::add_placed(
     const std::int64_t area = doubled_area(top, middle, bottom);
     const TopDownVertices corners{top, middle, bottom, area};
     if (left > right || first > last || area == 0 || is_between_samples(corners, samples_)) { return; }
-    Triangle& triangle = list.triangles.emplace_back();
+    static constexpr Triangle blank; // copied: g++ clears a new one by a slow instruction
+    Triangle& triangle = list.triangles.emplace_back(blank);
     triangle.top = top.y;
     triangle.middle = middle.y;
     triangle.bottom = bottom.y;
