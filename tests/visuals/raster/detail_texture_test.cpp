@@ -127,8 +127,8 @@ double pattern_at(double in_level, const glm::dvec3& texels) {
     return sum / 128.0 - 1.0;
 }
 
-/// Between which values the pattern at a pixel lies, up to half a level finer and coarser than the size of what it sees
-/// asks for.
+/// Between which values the pattern at a pixel lies, up to a quarter of a level finer and coarser than the area that it
+/// sees asks for.
 struct Range {
     double min = 1.0;
     double max = -1.0;
@@ -139,9 +139,9 @@ Range pattern_around(const glm::dvec2& at_px, const Slope& slope) {
         return seen_from_eye_m(at_px + glm::dvec2(columns, rows), slope);
     };
     const glm::dvec3 here = seen_from(0.0, 0.0);
-    const double wide_m = std::max(glm::length(seen_from(1.0, 0.0) - here), glm::length(seen_from(0.0, 1.0) - here));
+    const double wide_m = std::sqrt(glm::length(glm::cross(seen_from(1.0, 0.0) - here, seen_from(0.0, 1.0) - here)));
     Range range;
-    for (const double off : {-0.75, -0.5, -0.25, 0.0, 0.25}) {
+    for (const double off : {-0.25, 0.0, 0.25}) {
         const double level = std::clamp(std::log2(16.0 * wide_m) + off, 0.45, 13.99);
         const int scale = static_cast<int>(level / 2.0);
         const double through = level / 2.0 - scale;
