@@ -474,7 +474,12 @@ constexpr double max_solidity = 0.5;
 /// What covers a disc, seen along its axis.
 class DiscCoverage {
 public:
-    DiscCoverage(const models::polygons::Pivot& axis, double radius_m) : axis_(axis), radius_m_(radius_m) {}
+    DiscCoverage(const models::polygons::Pivot& axis, double radius_m) : axis_(axis), radius_m_(radius_m) {
+        for (std::size_t i = 0; i < directions; ++i) {
+            const double turn = 2.0 * pi * (static_cast<double>(i) + 0.5) / directions;
+            ways_[i] = {std::cos(turn), std::sin(turn)};
+        }
+    }
 
     /// Adds a convex polygon, body axes.
     void add(std::span<const glm::dvec3> corners_m) {
@@ -483,16 +488,23 @@ public:
             const glm::dvec3 off_m = corner_m - axis_.point_m;
             flat_.emplace_back(glm::dot(off_m, right_), glm::dot(off_m, up_));
         }
+        glm::dvec2 min_m = flat_[0];
+        glm::dvec2 max_m = flat_[0];
         double twice_area_m2 = 0.0;
-        for (std::size_t i = 2; i < flat_.size(); ++i) {
+        for (std::size_t i = 1; i < flat_.size(); ++i) {
+            min_m = glm::min(min_m, flat_[i]);
+            max_m = glm::max(max_m, flat_[i]);
             twice_area_m2 += cross(flat_[i - 1] - flat_[0], flat_[i] - flat_[0]);
         }
-        for (std::size_t circle = 0; circle < circles && twice_area_m2 != 0.0; ++circle) {
+        if (twice_area_m2 == 0.0) { return; }
+        const double nearest_m = glm::length(glm::max(glm::max(min_m, -max_m), 0.0));
+        const double farthest_m = glm::length(glm::max(max_m, -min_m));
+        for (std::size_t circle = 0; circle < circles; ++circle) {
             const double at_m = radius_m_ * (static_cast<double>(circle) + 0.5) / circles;
+            if (at_m < nearest_m || at_m > farthest_m) { continue; }
             for (std::size_t direction = 0; direction < directions; ++direction) {
-                const double turn = 2.0 * pi * (static_cast<double>(direction) + 0.5) / directions;
                 bool& covered = covered_[circle][direction];
-                covered = covered || holds(at_m * glm::dvec2(std::cos(turn), std::sin(turn)), twice_area_m2);
+                covered = covered || holds(at_m * ways_[direction], twice_area_m2);
             }
         }
     }
@@ -531,6 +543,7 @@ private:
     glm::dvec3 right_ = glm::normalize(
         glm::cross(axis_.axis, std::abs(axis_.axis.x) < 0.7 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0)));
     glm::dvec3 up_ = glm::cross(axis_.axis, right_);
+    std::array<glm::dvec2, directions> ways_{};
     std::vector<glm::dvec2> flat_;
     std::array<std::array<bool, directions>, circles> covered_{};
 };

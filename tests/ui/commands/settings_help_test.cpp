@@ -13,6 +13,7 @@
 #include <map>
 #include <set>
 #include <string>
+#include <vector>
 
 using namespace octant;
 using ui::command_line::Shown;
@@ -112,4 +113,16 @@ TEST_CASE("a key of a family of options is read and refused as an option is") {
     }
     tests::check_refused(
         "fly", {"--show", "roads,no-shadows,mesh=levels", "--terrain", "/nowhere.tif"}, "/nowhere.tif");
+}
+
+TEST_CASE("a flag that is not set is neither of its values: rotors are discs, with --no-effects blades") {
+    const auto picture = [](const std::string& flag) {
+        std::vector<std::string> words{"straight", "--aircraft", "500md", "--terrain", "none", "--size", "96x54",
+            "--renderer", "raster", "--frames", "1", "--warm-up", "0"};
+        if (!flag.empty()) { words.push_back(flag); }
+        return tests::results_of_run("fly", words)["picture_hash"].text();
+    };
+    const std::string discs = picture("");
+    CHECK(picture("--effects") == discs); // a helicopter has no plumes
+    CHECK(picture("--no-effects") != discs);
 }

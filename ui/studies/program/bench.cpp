@@ -26,7 +26,6 @@
 #include <span>
 #include <string>
 #include <string_view>
-#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -49,22 +48,22 @@ struct Feature {
 
 double share_in(double value) { return value; }
 
-double share_in(const std::optional<bool>& value) { return value.value_or(false) ? 1.0 : 0.0; }
+/// A half where the flag is not set, which is neither of its values.
+double share_in(const std::optional<bool>& value) { return !value ? 0.5 : *value ? 1.0 : 0.0; }
+
+void put_share(double share, double& value) { value = share; }
+
+void put_share(double share, bool& value) { value = share != 0.0; }
+
+void put_share(double share, std::optional<bool>& value) {
+    value = share == 0.0 || share == 1.0 ? std::optional(share == 1.0) : std::nullopt;
+}
 
 /// A feature that is a field of a part of the settings: a flag or a share.
 template <auto part, auto field>
 constexpr Feature feature(std::string_view name, double on = 1.0) {
     return {name, [](const RunSettings& settings) { return share_in((settings.*part).*field); },
-        [](RunSettings& settings, double share) {
-            auto& value = (settings.*part).*field;
-            using Value = std::remove_reference_t<decltype(value)>;
-            if constexpr (std::is_same_v<Value, double>) {
-                value = share;
-            } else {
-                value = share != 0.0;
-            }
-        },
-        on};
+        [](RunSettings& settings, double share) { put_share(share, (settings.*part).*field); }, on};
 }
 
 constexpr double cloud_share = 0.5;
