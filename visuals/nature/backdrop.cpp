@@ -10,8 +10,8 @@ namespace octant::visuals::nature {
 
 namespace {
 
-/// Distances of the rings from the map's edge over its mean half extent, from outside in. The last lies under the map's
-/// own border.
+/// Distances of the rings from the map's edge over its half extents, from outside in. The last lies under the map's own
+/// border.
 constexpr std::array ring_distance_ratios = {
     5.0, 3.3, 2.2, 1.5, 1.0, 0.78, 0.62, 0.50, 0.40, 0.32, 0.25, 0.18, 0.11, 0.05, 0.02, -0.01};
 constexpr double flat_ratio = 1.0; ///< from this ring on the land lies at the mean height
@@ -46,14 +46,15 @@ double mirrored(double at_m, double half_m) {
 
 double size_of(const BackdropSource& map) { return 0.5 * (map.half_extent_m.x + map.half_extent_m.y); }
 
-/// Of the outermost ring, over the map's mean half extent.
+/// Of the outermost ring, over the map's half extents.
 double reach_of(const BackdropSource& map) {
-    return std::max(ring_distance_ratios.front(), min_reach_m / size_of(map));
+    return std::max(ring_distance_ratios.front(), min_reach_m / std::min(map.half_extent_m.x, map.half_extent_m.y));
 }
 
-Backdrop::BackdropVertex vertex_at(const BackdropSource& map, double share, int number) {
+/// A vertex of the ring at `share`; `gap` is how far the next ring outwards is, both over the map's half extents.
+Backdrop::BackdropVertex vertex_at(const BackdropSource& map, double share, double gap, int number) {
     const double size_m = size_of(map);
-    const glm::dvec2 at_m = square_outline_point(number) * (map.half_extent_m + share * size_m);
+    const glm::dvec2 at_m = (1.0 + share) * square_outline_point(number) * map.half_extent_m;
     constexpr double inside = 0.999;
     const glm::dvec2 mirrored_m(
         inside * mirrored(at_m.x, map.half_extent_m.x), inside * mirrored(at_m.y, map.half_extent_m.y));
@@ -67,7 +68,7 @@ Backdrop::BackdropVertex vertex_at(const BackdropSource& map, double share, int 
     const double contrast = 1.0 - glm::smoothstep(full_colour_share * reach, reach, share);
     const double height_m = glm::mix(map.mean_height_m, map.height_m(mirrored_m), relief) -
                             (share < 0.0 ? overlap_depth_ratio * size_m : 0.0);
-    const double footprint_m = std::max(1.2 / vertices_per_side, 0.09 * std::min(share, 6.0)) * size_m;
+    const double footprint_m = std::max(1.2 / vertices_per_side, gap) * size_m;
     return {{at_m, height_m},
         glm::mix(map.mean_colour, map.colour(mirrored_m, footprint_m), static_cast<float>(contrast)),
         map.cover_code ? map.cover_code(mirrored_m, footprint_m) : 0.0F, is_water(mirrored_m)};
@@ -79,11 +80,13 @@ Backdrop make_backdrop(const BackdropSource& map) {
     Backdrop backdrop;
     backdrop.outer_vertices = vertices_per_ring;
     const double stretch = (reach_of(map) - flat_ratio) / (ring_distance_ratios.front() - flat_ratio);
+    double farther = reach_of(map);
     for (const double ratio : ring_distance_ratios) {
         const double share = ratio + (stretch - 1.0) * std::max(ratio - flat_ratio, 0.0);
         for (int number = 0; number < vertices_per_ring; ++number) {
-            backdrop.vertices.push_back(vertex_at(map, share, number));
+            backdrop.vertices.push_back(vertex_at(map, share, farther - share, number));
         }
+        farther = share;
     }
     const auto rings = static_cast<std::uint32_t>(ring_distance_ratios.size());
     for (std::uint32_t ring = 0; ring + 1 < rings; ++ring) {

@@ -82,6 +82,9 @@ double deepest_rad(const SurroundingPlain& plain) {
     return std::clamp(deepest, rad_from_deg(3.0), pi / 2.0);
 }
 
+/// Twice the area of the triangle that two vectors span: positive where `to` lies to the left of `from`.
+double turn(const glm::dvec2& from, const glm::dvec2& to) { return from.x * to.y - from.y * to.x; }
+
 } // namespace
 
 glm::vec3 through_haze(const scene::Haze& haze, const glm::dvec3& position_m, const glm::vec3& own) {
@@ -105,13 +108,9 @@ Sky::Sky(const nature::Daylight& day, nature::Backdrop land)
     add_dome(day);
     add_sun(day);
     sky_vertices_ = vertices_.size();
-    sky_indices_ = indices_.size();
     vertices_.resize(sky_vertices_ + land_.vertices.size());
     for (const nature::Backdrop::BackdropVertex& corner : land_.vertices) {
         land_half_m_ = glm::max(land_half_m_, glm::abs(glm::dvec2(corner.at_m)));
-    }
-    for (const std::uint32_t corner : land_.indices) {
-        indices_.push_back(static_cast<std::uint32_t>(sky_vertices_) + corner);
     }
 }
 
@@ -221,8 +220,8 @@ void Sky::place_land(const SurroundingPlain& plain, const glm::dvec3& eye_m) {
     }
 }
 
-/// Fills in shown_indices_ and is_shown_: the triangles that are not outside a plane, and their vertices.
-void Sky::keep_triangles_in(const Frustum& frustum, std::size_t vertices, std::size_t indices) {
+/// Fills in outside_: for each vertex the planes that have it outside.
+void Sky::find_outside(const Frustum& frustum, std::size_t vertices) {
     constexpr float margin = 1e-3F; // of the distance: far more than rounding moves a corner
     std::array<glm::vec3, 4> inward{};
     std::ranges::transform(frustum, inward.begin(), [](const glm::dvec3& normal) { return glm::vec3(normal); });
@@ -243,24 +242,45 @@ void Sky::keep_triangles_in(const Frustum& frustum, std::size_t vertices, std::s
         }
         std::memcpy(&outside_[i], &outside, sizeof(outside));
     }
-    is_shown_.assign(vertices, 0);
-    shown_indices_.resize(indices);
-    std::size_t count = 0;
-    for (std::size_t i = 0; i < indices; i += 3) {
-        const std::uint32_t* const corners = &indices_[i];
-        if ((outside_[corners[0]] & outside_[corners[1]] & outside_[corners[2]]) != 0) { continue; }
-        for (std::size_t k = 0; k < 3; ++k) {
-            shown_indices_[count + k] = corners[k];
-            is_shown_[corners[k]] = 1;
-        }
-        count += 3;
+}
+
+/// Adds a triangle to shown_indices_ and its corners to is_shown_ unless it is outside a plane.
+void Sky::show_triangle(const std::uint32_t* corners, std::uint32_t first_vertex) {
+    const auto outside = [&](std::size_t corner) { return outside_[first_vertex + corners[corner]]; };
+    if ((outside(0) & outside(1) & outside(2)) != 0) { return; }
+    for (std::size_t corner = 0; corner < 3; ++corner) {
+        shown_indices_.push_back(first_vertex + corners[corner]);
+        is_shown_[first_vertex + corners[corner]] = 1;
     }
-    shown_indices_.resize(count);
+}
+
+/// Adds the land's triangles in painting order: rings from outside in, in each the cells from the one that is opposite to
+/// the eye's as seen from the middle, and of a cell's two triangles the farther one first. A look from an eye inside all
+/// rings turns steadily away from the eye's cell, so nothing is painted over what hides it.
+void Sky::show_land(const glm::dvec2& eye_m) {
+    const auto first = static_cast<std::uint32_t>(sky_vertices_);
+    const std::size_t cells = land_.outer_vertices;
+    const auto at_m = [this](std::size_t vertex) { return glm::dvec2(land_.vertices[vertex].at_m); };
+    const auto is_left_of = [&](std::size_t corner) { return turn(at_m(corner % cells), eye_m) >= 0.0; };
+    std::size_t own_cell = 0;
+    while (own_cell + 1 < cells && !(is_left_of(own_cell) && !is_left_of(own_cell + 1))) { ++own_cell; }
+    for (std::size_t ring = 0; ring < land_.indices.size(); ring += 6 * cells) {
+        for (std::size_t nearer = cells; nearer-- > 0;) {
+            const std::size_t away = nearer % 2 == 1 ? (nearer + 1) / 2 : cells - nearer / 2;
+            const std::uint32_t* const cell = &land_.indices[ring + 6 * ((own_cell + away) % cells)];
+            const auto outside = [&](std::size_t corner) { return outside_[first + cell[corner]]; };
+            if ((outside(0) & outside(1) & outside(2) & outside(5)) != 0) { continue; }
+            const glm::dvec2 inner_m = at_m(cell[2]);
+            const bool outer_first = turn(at_m(cell[0]) - inner_m, eye_m - inner_m) <= 0.0;
+            show_triangle(outer_first ? cell : cell + 3, first);
+            show_triangle(outer_first ? cell + 3 : cell, first);
+        }
+    }
 }
 
 scene::TriangleDraw Sky::around(
     const SurroundingPlain& plain, const scene::Haze& haze, const glm::dvec3& eye_m, const Frustum& frustum) {
-    const bool has_land = !land_.vertices.empty() && plain.height_below_eye_m > 0.0;
+    const bool has_land = !land_.vertices.empty();
     SurroundingPlain beyond = plain;
     if (plain.height_below_eye_m <= 0.0 && std::isfinite(plain.height_below_eye_m)) {
         beyond.height_below_eye_m = raised_eye_m;
@@ -280,7 +300,12 @@ scene::TriangleDraw Sky::around(
             vertices_[sky_vertices_ + i].position_m = glm::vec3(land_m_[i]);
         }
     }
-    keep_triangles_in(frustum, has_land ? vertices_.size() : sky_vertices_, has_land ? indices_.size() : sky_indices_);
+    const std::size_t vertices = has_land ? vertices_.size() : sky_vertices_;
+    find_outside(frustum, vertices);
+    is_shown_.assign(vertices, 0);
+    shown_indices_.clear();
+    for (std::size_t i = 0; i < indices_.size(); i += 3) { show_triangle(&indices_[i], 0); }
+    if (has_land) { show_land(glm::dvec2(eye_m)); }
     for (std::size_t i = 0; i < plain_rays_.size(); ++i) {
         if (is_shown_[first_below + i] == 0) { continue; }
         const glm::dvec3& ray = plain_rays_[i];

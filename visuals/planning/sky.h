@@ -43,7 +43,7 @@ public:
     static constexpr Frustum all_around{glm::dvec3(0.0), glm::dvec3(0.0), glm::dvec3(0.0), glm::dvec3(0.0)};
 
     /// The triangles, in painting order, and their vertices stay valid until the next call; those outside a plane are
-    /// left out. The land around the map is left out from below its mean height.
+    /// left out.
     scene::TriangleDraw around(const SurroundingPlain& plain, const scene::Haze& haze, const glm::dvec3& eye_m = {},
         const Frustum& frustum = all_around);
 
@@ -57,7 +57,9 @@ private:
     void add_sun(const nature::Daylight& day);
     void place_plain(const SurroundingPlain& plain);
     void place_land(const SurroundingPlain& plain, const glm::dvec3& eye_m);
-    void keep_triangles_in(const Frustum& frustum, std::size_t vertices, std::size_t indices);
+    void find_outside(const Frustum& frustum, std::size_t vertices);
+    void show_triangle(const std::uint32_t* corners, std::uint32_t first_vertex);
+    void show_land(const glm::dvec2& eye_m);
     void number_shown_vertices();
 
     /// The azimuth at which each ring of the dome begins: the sun's.
@@ -68,7 +70,7 @@ private:
     glm::dvec2 land_half_m_{0.0};
     /// The vertices of dome and sun, then those of the land.
     std::vector<models::ColourVertex> vertices_;
-    std::vector<std::uint32_t> indices_;
+    std::vector<std::uint32_t> indices_; ///< of dome and sun
     /// The directions in which the corners of each ring of the dome lie, level.
     std::vector<glm::dvec3> levels_;
     /// For each of them the colour of the water beyond the land, without what it mirrors; nothing: a plain lies there.
@@ -82,9 +84,7 @@ private:
     std::vector<models::ColourVertex> shown_vertices_;
     std::vector<std::uint32_t> shown_indices_;
     std::size_t first_land_vertex_ = 0; ///< in shown_vertices_
-    /// How many vertices and indices dome and sun have.
-    std::size_t sky_vertices_ = 0;
-    std::size_t sky_indices_ = 0;
+    std::size_t sky_vertices_ = 0;      ///< how many of them dome and sun have
 };
 
 /// The light, the haze and the sky of one view.

@@ -179,6 +179,7 @@ TEST_CASE("pictures of a runway are those that were approved") {
     low.view.size_px = {320, 180};
     check_against_golden("500md-straight-hills-airfield", low);
     low.air.ground_shading = visuals::scene::GroundShading::Texture;
+    check_against_golden("500md-straight-hills-airfield-textured", low, Golden::OfEach);
     low.surface.hidden_surface = visuals::scene::HiddenSurface::DepthBuffer;
     check_against_golden("500md-straight-hills-airfield-textured", low, Golden::OfEach);
 }

@@ -31,24 +31,23 @@ double outside_m(const glm::dvec3& at_m) { return std::max(std::abs(at_m.x) - 20
 
 TEST_CASE("the land around a map begins under its border and ends at its mean height and colour") {
     const Backdrop land = make_backdrop(slope());
-    double farthest_m = 0.0;
-    for (const Backdrop::BackdropVertex& corner : land.vertices) {
-        farthest_m = std::max(farthest_m, outside_m(corner.at_m));
-    }
-    CHECK(farthest_m == Approx(20000.0));
+    double nearest_end_m = 1e9;
     int under = 0;
-    for (const Backdrop::BackdropVertex& corner : land.vertices) {
-        if (outside_m(corner.at_m) < 0.0) {
-            ++under;
-            CHECK(corner.at_m.z < mean_m + 0.1 * corner.at_m.x - 10.0);
-        } else if (outside_m(corner.at_m) > 0.99 * farthest_m) {
+    for (std::size_t i = 0; i < land.vertices.size(); ++i) {
+        const Backdrop::BackdropVertex& corner = land.vertices[i];
+        if (i < land.outer_vertices) {
+            nearest_end_m = std::min(nearest_end_m, outside_m(corner.at_m));
             CHECK(corner.at_m.z == Approx(mean_m));
             CHECK(glm::length(corner.colour - mean_colour) < 1e-6F);
+        } else if (outside_m(corner.at_m) < 0.0) {
+            ++under;
+            CHECK(corner.at_m.z < mean_m + 0.1 * corner.at_m.x - 10.0);
         } else if (outside_m(corner.at_m) < 100.0) {
             CHECK(std::abs(corner.at_m.z - mean_m - 0.1 * corner.at_m.x) < 30.0);
         }
     }
     CHECK(under > 10);
+    CHECK(nearest_end_m == Approx(20000.0));
 }
 
 TEST_CASE("only places on the map are asked for, whatever its shape") {
@@ -89,9 +88,7 @@ TEST_CASE("seen from above the land faces up and covers everything around the ma
         REQUIRE(twice_m2 > 0.0);
         area_m2 += 0.5 * twice_m2;
     }
-    const double size_m = 1500.0;
-    constexpr double reach_m = 20000.0; // past the border of so small a map
-    const double all_m2 = 4.0 * (2000.0 + reach_m) * (1000.0 + reach_m);
-    const double map_m2 = 4.0 * (2000.0 - 0.01 * size_m) * (1000.0 - 0.01 * size_m);
+    const double all_m2 = 4.0 * 42000.0 * 21000.0; // 20 km past the border of so small a map
+    const double map_m2 = 4.0 * 0.99 * 2000.0 * 0.99 * 1000.0;
     CHECK(area_m2 == Approx(all_m2 - map_m2).epsilon(1e-9));
 }

@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 
 #include <algorithm>
+#include <limits>
 
 using namespace octant;
 using namespace octant::visuals::landscape;
@@ -144,6 +145,41 @@ TEST_CASE("past the land around a map the plain begins where that land ends") {
     };
     CHECK(lowest({0.0, 0.0, 1000.0}) == Approx(1.0 - std::exp(-1.0)).margin(0.01));
     CHECK(lowest({0.0, 12000.0, 1000.0}) == Approx(1.0 - std::exp(-0.4)).margin(0.01));
+}
+
+TEST_CASE("what is painted last of the land around a map is the nearest, from eyes above and below its mean height") {
+    const visuals::nature::BackdropSource ridges{{3000.0, 2000.0}, 400.0, {}, std::nullopt,
+        [](const glm::dvec2& at_m) {
+            return 400.0 + 300.0 * std::sin(at_m.x / 170.0 + 1.0) * std::cos(at_m.y / 130.0);
+        },
+        [](const glm::dvec2&, double) { return glm::vec3(0.5F); }};
+    Sky sky(sun_at(90.0, 35.0), make_backdrop(ridges));
+    int hidden = 0;
+    int seen = 0;
+    for (int eye = 0; eye < 24; ++eye) {
+        const glm::dvec3 eye_m(
+            2800.0 * std::sin(1.0 + 7.0 * eye), 1900.0 * std::sin(2.0 + 11.0 * eye), 150.0 + 25.0 * eye);
+        const TriangleDraw draw = sky.around({eye_m.z - 400.0, 0.0, {}}, {{}, 20000.0F}, eye_m);
+        for (int look = 0; look < 400; ++look) {
+            const glm::dvec3 ray = ray_at(rad_from_deg(-6.0 + 0.03 * look), 2.4 * look);
+            double nearest_m = std::numeric_limits<double>::infinity();
+            double last_m = nearest_m;
+            for (std::size_t i = 0; i < draw.indices.size(); i += 3) {
+                if (draw.indices[i] < sky.first_land_vertex()) { continue; }
+                const glm::dvec3 a(draw.vertices[draw.indices[i]].position_m);
+                const glm::dvec3 normal = glm::cross(glm::dvec3(draw.vertices[draw.indices[i + 1]].position_m) - a,
+                    glm::dvec3(draw.vertices[draw.indices[i + 2]].position_m) - a);
+                if (glm::dot(normal, a) >= 0.0 || faces_hit(draw, i, i + 3, ray) == 0) { continue; }
+                last_m = glm::dot(normal, a) / glm::dot(normal, ray);
+                hidden += std::isfinite(nearest_m) ? 1 : 0;
+                nearest_m = std::min(nearest_m, last_m);
+            }
+            seen += std::isfinite(nearest_m) ? 1 : 0;
+            CHECK(last_m <= nearest_m * (1.0 + 1e-4));
+        }
+    }
+    CHECK(seen > 3000);
+    CHECK(hidden > 3000);
 }
 
 TEST_CASE("haze thins with height, and has the sun's colour towards the sun") {
