@@ -8,74 +8,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
-#include <utility>
 
 namespace octant::visuals::nature {
-
-namespace {
-
-constexpr std::size_t base_vertices = Icosphere::vertex_counts[0];
-
-Icosphere::Face face_of(const Icosphere& sphere, const std::array<std::uint8_t, 3>& corners) {
-    const glm::vec3& a = sphere.directions[corners[0]];
-    const glm::vec3 normal = glm::cross(sphere.directions[corners[1]] - a, sphere.directions[corners[2]] - a);
-    return {corners, normal / glm::dot(normal, a)};
-}
-
-} // namespace
-
-Icosphere::Icosphere() {
-    directions[0] = glm::vec3(0.0F, 0.0F, 1.0F);
-    directions[11] = -directions[0];
-    constexpr float up = 0.447213595F;
-    constexpr std::array<glm::vec2, 5> around{glm::vec2(1.0F, 0.0F), {0.309016994F, 0.951056516F},
-        {-0.809016994F, 0.587785252F}, {-0.809016994F, -0.587785252F}, {0.309016994F, -0.951056516F}};
-    for (std::size_t i = 0; i < 5; ++i) {
-        directions[1 + i] = glm::vec3(2.0F * up * around[i], up);
-        directions[6 + i] = glm::vec3(-2.0F * up * around[(i + 3) % 5], -up);
-    }
-    for (std::uint8_t i = 0; i < 5; ++i) {
-        const auto next = static_cast<std::uint8_t>((i + 1) % 5);
-        const auto upper = [](std::uint8_t number) { return static_cast<std::uint8_t>(1 + number); };
-        const auto lower = [](std::uint8_t number) { return static_cast<std::uint8_t>(6 + number); };
-        faces[0].push_back(face_of(*this, {0, upper(i), upper(next)}));
-        faces[0].push_back(face_of(*this, {upper(i), lower(i), upper(next)}));
-        faces[0].push_back(face_of(*this, {lower(i), lower(next), upper(next)}));
-        faces[0].push_back(face_of(*this, {11, lower(next), lower(i)}));
-    }
-    add_level(1);
-    add_level(2);
-}
-
-void Icosphere::add_level(std::size_t level) {
-    std::map<std::pair<std::uint8_t, std::uint8_t>, std::uint8_t> middles;
-    auto next = static_cast<std::uint8_t>(vertex_counts[level - 1]);
-    const auto middle_of = [&](std::uint8_t a, std::uint8_t b) {
-        const auto [known, is_new] = middles.try_emplace(std::minmax(a, b), next);
-        if (is_new) {
-            parents[next] = {std::min(a, b), std::max(a, b)};
-            directions[next] = glm::normalize(directions[a] + directions[b]);
-            ++next;
-        }
-        return known->second;
-    };
-    for (const Face& face : faces[level - 1]) {
-        const auto& [a, b, c] = face.corners;
-        const std::uint8_t ab = middle_of(a, b);
-        const std::uint8_t bc = middle_of(b, c);
-        const std::uint8_t ca = middle_of(c, a);
-        for (const std::array<std::uint8_t, 3>& part :
-            {std::array{a, ab, ca}, std::array{ab, b, bc}, std::array{ca, bc, c}, std::array{ab, bc, ca}}) {
-            faces[level].push_back(face_of(*this, part));
-        }
-    }
-}
-
-const Icosphere& icosphere() {
-    static const Icosphere sphere;
-    return sphere;
-}
 
 namespace {
 
@@ -99,34 +33,30 @@ private:
     std::uint32_t state_;
 };
 
-/// A place of the surface as seen along a ray: its distance, where the icosphere has 1.
-struct SurfacePoint {
-    float radius = 1.0F;
-    glm::vec3 normal{0.0F};
-    float openness = 1.0F;
-};
-
 /// A clump of leaves.
 struct Ball {
     glm::vec3 centre{0.0F};
     float radius = 0.0F;
 };
 
-/// One ball at each corner of the icosahedron, and one in the middle.
-using Clumps = std::array<Ball, base_vertices + 1>;
+/// One in the middle and others around it.
+using Clumps = std::array<Ball, 24>;
 
 Clumps make_clumps(Random& random) {
     Clumps clumps;
-    for (std::size_t i = 0; i < base_vertices; ++i) {
-        const glm::vec3 way = glm::normalize(icosphere().directions[i] + 0.55F * random.next_direction());
-        clumps[i] = {way * (0.52F + 0.16F * random.next()), 0.34F + 0.10F * random.next()};
+    clumps[0] = {glm::vec3(0.0F), 0.66F};
+    for (std::size_t i = 1; i < clumps.size();) {
+        const glm::vec3 way = random.next_direction();
+        const float length = glm::length(way);
+        if (length < 0.1F || length > 0.5F) { continue; }
+        const float out = 0.56F + 0.16F * random.next();
+        clumps[i++] = {way * (out / length), 0.24F + 0.16F * random.next()};
     }
-    clumps[base_vertices] = {glm::vec3(0.0F), 0.60F};
     return clumps;
 }
 
-SurfacePoint surface_of(const Clumps& clumps, const glm::vec3& way) {
-    SurfacePoint surface{0.0F};
+CrownPoint surface_of(const Clumps& clumps, const glm::vec3& way) {
+    CrownPoint surface{0.0F};
     for (const Ball& ball : clumps) {
         const float along = glm::dot(way, ball.centre);
         const float rest = ball.radius * ball.radius - glm::dot(ball.centre, ball.centre) + along * along;
@@ -136,160 +66,246 @@ SurfacePoint surface_of(const Clumps& clumps, const glm::vec3& way) {
             surface.normal = glm::normalize((exit * way - ball.centre) / ball.radius + 0.6F * way);
         }
     }
-    surface.openness = (0.25F + 0.75F * glm::smoothstep(0.58F, 0.98F, surface.radius)) *
-                       (0.62F + 0.38F * glm::smoothstep(-1.0F, 0.5F, way.z));
+    surface.openness = (0.25F + 0.75F * glm::smoothstep(0.62F, 0.98F, surface.radius)) *
+                       (0.50F + 0.50F * glm::smoothstep(-0.9F, 0.6F, way.z));
+    // Crowns are flat below.
+    if (way.z < 0.0F) { surface.radius = std::max(surface.radius, 0.8F) * 1.1F; }
     return surface;
 }
 
-/// The greatest distance of a vertex from the axis.
-constexpr float max_radius = 0.98F;
-constexpr float roughness = 0.26F; ///< of the leaves' surface, of its distance from the centre
+/// The side of a cone that is pointed above, as high as `up` over the centre, and 1 wide where it ends at `down` below.
+CrownPoint surface_of_cone(float up, float down, const glm::vec3& way) {
+    const float level = glm::length(glm::vec2(way));
+    const float height = up + down;
+    CrownPoint surface;
+    surface.radius = up / std::max(height * level + way.z, 1e-3F);
+    if (way.z < 0.0F) { surface.radius = std::min(surface.radius, -down / way.z); }
+    surface.normal = glm::vec3(0.8F * glm::vec2(way) / std::max(level, 1e-3F), way.z < -0.6F ? -0.6F : 0.6F);
+    surface.openness = 0.70F + 0.30F * glm::smoothstep(-0.5F, 0.9F, way.z);
+    return surface;
+}
+
+constexpr float max_radius = 0.98F; ///< the greatest distance of leaves from the axis
 
 } // namespace
 
+Crown::Crown(PlantKind kind, std::uint32_t variant) : is_cone_(kind == PlantKind::Conifer) {
+    const std::uint32_t seed = 16U * static_cast<std::uint32_t>(kind) + variant;
+    Random random(seed);
+    const Clumps clumps = make_clumps(random);
+    for (float& depth : notch_depths_) { depth = 0.08F + 0.14F * random.next(); }
+    if (is_cone_) {
+        lowest_ = 0.10F + 0.06F * random.next();
+        centre_ = 0.62F;
+    } else if (kind == PlantKind::Broadleaf) {
+        lowest_ = 0.16F + 0.10F * random.next();
+        centre_ = 0.54F + 0.04F * random.next();
+    } else {
+        lowest_ = 0.03F;
+        centre_ = 0.35F;
+    }
+    const float rough = is_cone_ ? 0.14F : 0.30F;
+    float top = 0.0F;
+    for (std::size_t row = 0; row < nodes; ++row) {
+        for (std::size_t column = 0; column < nodes; ++column) {
+            // Those on the border that are there twice have the same leaves.
+            constexpr std::size_t last = nodes - 1;
+            const std::size_t own_row = column % last == 0 ? std::min(row, last - row) : row;
+            const std::size_t own_column = own_row % last == 0 ? std::min(column, last - column) : column;
+            Random leaves(seed + static_cast<std::uint32_t>(1024 * (own_row * nodes + own_column)));
+            const float out = leaves.next() - 0.5F;
+            const glm::vec3 way = direction_of(column, row);
+            CrownPoint& point = points_[row * nodes + column];
+            point =
+                is_cone_ ? surface_of_cone(1.0F, (centre_ - lowest_) / (1.0F - centre_), way) : surface_of(clumps, way);
+            point.radius *= 1.0F + rough * out;
+            point.openness *= 1.0F + 0.6F * out;
+            point.normal += rough * leaves.next_direction();
+            top = std::max(top, point.radius * way.z);
+        }
+    }
+    half_height_ = (1.0F - centre_) / (is_cone_ ? 1.0F : top);
+    // Straight below its centre the crown meets the trunk.
+    for (const std::size_t corner : {std::size_t{0}, nodes - 1, (nodes - 1) * nodes, nodes * nodes - 1}) {
+        points_[corner].radius = (centre_ - lowest_) / half_height_;
+    }
+}
+
+glm::vec3 Crown::direction_of(std::size_t column, std::size_t row) {
+    constexpr float per_node = 2.0F / static_cast<float>(nodes - 1);
+    const float u = static_cast<float>(column) * per_node - 1.0F;
+    const float v = static_cast<float>(row) * per_node - 1.0F;
+    const float up = 1.0F - std::abs(u) - std::abs(v);
+    if (up >= 0.0F) { return glm::normalize(glm::vec3(u, v, up)); }
+    return glm::normalize(glm::vec3(std::copysign(1.0F - std::abs(v), u), std::copysign(1.0F - std::abs(u), v), up));
+}
+
+CrownPoint Crown::at(const glm::vec3& way) const {
+    const glm::vec3 on_octahedron = way / (std::abs(way.x) + std::abs(way.y) + std::abs(way.z));
+    glm::vec2 at(on_octahedron);
+    if (way.z < 0.0F) {
+        at = {std::copysign(1.0F - std::abs(on_octahedron.y), way.x),
+            std::copysign(1.0F - std::abs(on_octahedron.x), way.y)};
+    }
+    at = glm::clamp((at + 1.0F) * (0.5F * static_cast<float>(nodes - 1)), 0.0F, static_cast<float>(nodes - 1) - 1e-3F);
+    const auto column = static_cast<std::size_t>(at.x);
+    const auto row = static_cast<std::size_t>(at.y);
+    const glm::vec2 part = at - glm::vec2(static_cast<float>(column), static_cast<float>(row));
+    CrownPoint sum{0.0F, 0.0F};
+    const auto add = [&](std::size_t node, float share) {
+        sum.radius += share * points_[node].radius;
+        sum.openness += share * points_[node].openness;
+        sum.normal += share * points_[node].normal;
+    };
+    const std::size_t first = row * nodes + column;
+    add(first, (1.0F - part.x) * (1.0F - part.y));
+    add(first + 1, part.x * (1.0F - part.y));
+    add(first + nodes, (1.0F - part.x) * part.y);
+    add(first + nodes + 1, part.x * part.y);
+    sum.radius = within_room(way, sum.radius);
+    return sum;
+}
+
+/// A distance on a ray, or less where the plant's circle and height end.
 float Crown::within_room(const glm::vec3& way, float radius) const {
     const float level = glm::length(glm::vec2(way));
-    const float room = way.z < 0.0F ? centre - lowest : 1.0F - centre;
+    const float room = way.z < 0.0F ? centre_ - lowest_ : 1.0F - centre_;
     return std::min(
-        {radius, max_radius / std::max(level, 1e-3F), room / std::max(half_height * std::abs(way.z), 1e-3F)});
+        {radius, max_radius / std::max(level, 1e-3F), room / std::max(half_height_ * std::abs(way.z), 1e-3F)});
 }
 
 namespace {
 
-/// Places the vertices on their rays within the plant's circle and height.
-void place(Crown& crown, const std::array<SurfacePoint, Icosphere::vertex_counts[2]>& surface) {
-    const Icosphere& sphere = icosphere();
-    std::array<float, Icosphere::vertex_counts[2]> radii{};
-    for (std::size_t i = 0; i < radii.size(); ++i) {
-        const glm::vec3& way = sphere.directions[i];
-        radii[i] = crown.within_room(way, surface[i].radius);
-        const glm::vec3 from_centre = radii[i] * way * glm::vec3(1.0F, 1.0F, crown.half_height);
-        const auto& [a, b] = sphere.parents[i];
-        const float on_chord = a == b ? 0.5F : radii[a] / (radii[a] + radii[b]);
-        crown.vertices[i] = {glm::vec3(0.0F, 0.0F, crown.centre) + from_centre, surface[i].normal, surface[i].openness,
-            radii[i], on_chord};
+/// Unit vectors, counter-clockwise from the right: of spokes, and of others between them.
+std::array<glm::vec2, CrownSide::max_corners> make_ways(bool is_conifer) {
+    constexpr float cosine = 0.866025404F;
+    constexpr std::array<glm::vec2, CrownSide::spokes> around{glm::vec2(1.0F, 0.0F), {cosine, 0.5F}, {0.5F, cosine},
+        {0.0F, 1.0F}, {-0.5F, cosine}, {-cosine, 0.5F}, {-1.0F, 0.0F}, {-cosine, -0.5F}, {-0.5F, -cosine},
+        {0.0F, -1.0F}, {0.5F, -cosine}, {cosine, -0.5F}};
+    constexpr std::array<glm::vec2, CrownSide::spokes> on_cone{glm::vec2(0.81F, -0.85F), {0.59F, -0.35F},
+        {0.35F, 0.20F}, {0.0F, 1.0F}, {-0.35F, 0.20F}, {-0.59F, -0.35F}, {-0.81F, -0.85F}, {-1.0F, -1.29F},
+        {-0.5F, -1.29F}, {0.0F, -1.0F}, {0.5F, -1.29F}, {1.0F, -1.29F}};
+    std::array<glm::vec2, CrownSide::max_corners> ways;
+    for (std::size_t i = 0; i < around.size(); ++i) {
+        ways[4 * i] = glm::normalize((is_conifer ? on_cone : around)[i]);
     }
+    for (const std::size_t step : {4U, 2U}) {
+        for (std::size_t i = 0; i < ways.size(); i += step) {
+            ways[i + step / 2] = glm::normalize(ways[i] + ways[(i + step) % ways.size()]);
+        }
+    }
+    return ways;
+}
+
+/// Finds corners on the side of a crown that faces an eye.
+class CrownView {
+public:
+    CrownView(const Crown& crown, const glm::vec3& eye)
+        : crown_(crown), distance_(std::max(glm::length(eye), 1e-3F)), to_eye_(eye / distance_),
+          right_(glm::normalize(glm::vec3(-to_eye_.y, to_eye_.x + 1e-6F, 0.0F))), up_(glm::cross(to_eye_, right_)) {}
+
+    /// The cosine between the way to the eye and that to the outline: where lines of sight touch a ball.
+    float outline_cosine() const { return std::min(0.9F / distance_, 0.8F); }
+
+    /// On the ray from the centre that is turned from the eye to a side by an angle of this cosine. The eye sees it off
+    /// the axis by `max_off_axis` at most.
+    CrownSide::Corner corner_on(const glm::vec2& side, float cosine, float max_off_axis) const {
+        const float sine = std::sqrt(1.0F - cosine * cosine);
+        const glm::vec3 way = cosine * to_eye_ + sine * (side.x * right_ + side.y * up_);
+        const CrownPoint point = crown_.at(way);
+        constexpr float before_eye = 0.8F; // of the eye's distance: an eye within the crown sees it before itself
+        const float radius = std::min({point.radius, max_off_axis * distance_ / (sine + max_off_axis * cosine),
+            before_eye * distance_ / std::max(cosine, 1e-3F)});
+        return {radius * way, point.normal, point.openness, off_axis(radius * way)};
+    }
+
+    float off_axis(const glm::vec3& from_centre) const {
+        return off_axis_m(from_centre) / (distance_ - glm::dot(from_centre, to_eye_));
+    }
+
+    /// Where the straight line between two corners on the outline meets the spoke amid theirs.
+    CrownSide::Corner between(const CrownSide::Corner& one, const CrownSide::Corner& other) const {
+        const float out = off_axis_m(one.from_centre);
+        return mixed(one, other, out / std::max(out + off_axis_m(other.from_centre), 1e-6F));
+    }
+
+    CrownSide::Corner mixed(const CrownSide::Corner& one, const CrownSide::Corner& other, float share) const {
+        const glm::vec3 from_centre = glm::mix(one.from_centre, other.from_centre, share);
+        return {from_centre, glm::mix(one.normal, other.normal, share), glm::mix(one.openness, other.openness, share),
+            off_axis(from_centre)};
+    }
+
+private:
+    float off_axis_m(const glm::vec3& from_centre) const {
+        return glm::length(glm::vec2(glm::dot(from_centre, right_), glm::dot(from_centre, up_)));
+    }
+
+    const Crown& crown_;
+    float distance_;
+    glm::vec3 to_eye_;
+    glm::vec3 right_;
+    glm::vec3 up_;
+};
+
+constexpr float far_off = 1e3F;
+constexpr float max_ring_share = 0.52F; ///< of the outline's distance from the middle
+
+float cross(const glm::vec2& a, const glm::vec2& b) { return a.x * b.y - a.y * b.x; }
+
+/// How far out the straight line between two points meets the ray along a unit vector.
+float off_axis_between(const glm::vec2& one, const glm::vec2& other, const glm::vec2& way) {
+    return cross(one, other) / (cross(one, way) + cross(way, other));
 }
 
 } // namespace
 
-Crown make_crown(PlantKind kind, std::uint32_t variant) {
-    Random random(16U * static_cast<std::uint32_t>(kind) + variant);
-    std::array<SurfacePoint, Icosphere::vertex_counts[2]> surface;
-    Crown crown;
-    const Clumps clumps = make_clumps(random);
-    float top = 0.0F;
-    for (std::size_t i = 0; i < surface.size(); ++i) {
-        const glm::vec3& way = icosphere().directions[i];
-        surface[i] = surface_of(clumps, way);
-        const float out = random.next() - 0.5F;
-        surface[i].radius *= 1.0F + roughness * out;
-        surface[i].openness *= 1.0F + 0.6F * out;
-        surface[i].normal = glm::normalize(surface[i].normal + roughness * random.next_direction());
-        top = std::max(top, surface[i].radius * way.z);
+CrownSide::CrownSide(const Crown& crown, const glm::vec3& eye, float fineness) : has_ring(fineness > 0.0F) {
+    if (fineness > 1.0F) { step = fineness > 2.0F ? 1 : 2; }
+    static const std::array ways_of{make_ways(false), make_ways(true)};
+    const std::array<glm::vec2, max_corners>& ways = ways_of[crown.is_cone() ? 1 : 0];
+    const CrownView view(crown, eye);
+    const float cosine = view.outline_cosine();
+    middle = view.corner_on({1.0F, 0.0F}, 1.0F, far_off);
+    for (std::size_t i = 0; i < max_corners; i += 4) { outline[i] = view.corner_on(ways[i], cosine, far_off); }
+    if (!crown.is_cone() && fineness > 1.0F) {
+        for (std::size_t i = 0; i < max_corners; i += 4) {
+            const float notch = crown.notch_depth(i / 4) * std::clamp(0.5F * (fineness - 1.0F), 0.0F, 1.0F);
+            outline[i] = view.corner_on(ways[i], cosine, (1.0F - notch) * outline[i].off_axis);
+            outline[i].openness *= 1.0F - 2.0F * notch;
+        }
     }
-    const bool is_tree = kind == PlantKind::Broadleaf;
-    crown.lowest = is_tree ? 0.10F : 0.03F;
-    crown.centre = is_tree ? 0.48F : 0.35F;
-    if (is_tree) { surface[base_vertices - 1].radius *= 0.65F; } // the lowest: crowns are flat below
-    crown.half_height = (1.0F - crown.centre) / top;
-    place(crown, surface);
-    crown.lowest =
-        std::ranges::min_element(crown.vertices, {}, [](const Crown::Vertex& vertex) { return vertex.at.z; })->at.z;
-    // Straight below its centre the crown meets the trunk, at every level.
-    surface[base_vertices - 1].radius = (crown.centre - crown.lowest) / crown.half_height;
-    place(crown, surface);
-    return crown;
-}
-
-namespace {
-
-/// The boughs of a tier end at every other side, long ones and short ones.
-void make_radii(Random& random, std::size_t tier, TierRing& ring) {
-    const float height = (TieredCrown::heights[tier] - TieredCrown::lowest) / (1.0F - TieredCrown::lowest);
-    const float whole = max_radius * (1.0F - height) * (1.0F + 0.30F * height);
-    const float open = 0.70F + 0.30F * height;
-    for (std::size_t side = 0; side < TieredCrown::sides; ++side) {
-        const bool is_end = TieredCrown::is_bough_end(tier, side);
-        ring[side].radius = whole * ((is_end ? 0.80F : 0.54F) + (is_end ? 0.20F : 0.06F) * random.next());
-        ring[side].openness = open * (is_end ? 1.0F : 0.72F);
+    // Seen from the side, the lowest corner reaches the trunk.
+    Corner& lowest_corner = outline[3 * max_corners / 4];
+    const glm::vec3 bottom = crown.from_centre({0.0F, 0.0F, crown.lowest()});
+    if (view.off_axis(bottom) > lowest_corner.off_axis) {
+        lowest_corner.from_centre = bottom;
+        lowest_corner.off_axis = view.off_axis(bottom);
     }
-}
-
-float min_radius(const TierRing& ring) { return std::ranges::min_element(ring, {}, &TierVertex::radius)->radius; }
-
-/// The upper edge of a tier whose lower edge is `low` fits below the next one's lower edge.
-float top_share(const TierRing& low, const TierRing& next) {
-    constexpr float room = 0.85F;
-    return std::min(room * min_radius(next) / std::ranges::max_element(low, {}, &TierVertex::radius)->radius, 1.0F);
-}
-
-} // namespace
-
-TieredCrown::TieredCrown(std::uint32_t variant) {
-    Random random(16U * static_cast<std::uint32_t>(PlantKind::Conifer) + variant);
-    for (std::size_t tier = 0; tier < tiers; ++tier) { make_radii(random, tier, lower_[tier]); }
-    for (std::size_t tier = 0; tier + 1 < tiers; ++tier) {
-        upper_share_[tier] = top_share(lower_[tier], lower_[tier + 1]);
+    for (const std::size_t wide : {std::size_t{4}, std::size_t{2}}) {
+        if (step >= wide) { break; }
+        const float come = std::min(fineness - (wide == 4 ? 1.0F : 2.0F), 1.0F);
+        // Corners between the ends of boughs are such ends when there are others between them.
+        const float between_ends = wide == 4 ? std::clamp(3.0F - fineness, 0.0F, 1.0F) : 1.0F;
+        for (std::size_t i = 0; i < max_corners; i += wide) {
+            const float notch = crown.is_cone() ? between_ends * crown.notch_depth(i / 4) : 0.0F;
+            const std::size_t next = (i + wide) % max_corners;
+            const Corner chord = view.between(outline[i], outline[next]);
+            const glm::vec2 way = glm::normalize(ways[i + wide / 2] + glm::vec2(0.0F, 0.5F * notch));
+            // Farther in it would be seen beyond the side of a triangle from the ring to the next corner.
+            const float in_ring = max_ring_share * outline[i / 4 * 4].off_axis;
+            const float min_off = off_axis_between(ways[i / 4 * 4] * in_ring, ways[next] * outline[next].off_axis, way);
+            Corner own = view.corner_on(way, cosine, (1.0F - notch) * (notch > 0.0F ? chord.off_axis : far_off));
+            own.openness *= 1.0F - 2.0F * notch;
+            const float near = (chord.off_axis - min_off) / std::max(chord.off_axis - own.off_axis, 1e-6F);
+            if (own.off_axis < min_off) { own = view.mixed(chord, own, std::clamp(0.9F * near, 0.0F, 1.0F)); }
+            outline[i + wide / 2] = view.mixed(chord, own, come);
+        }
     }
-    for (std::size_t tier = 0; tier + 2 < tiers; tier += 2) {
-        coarse_share_[tier] = top_share(lower_[tier], lower_[tier + 2]);
-    }
-}
-
-namespace {
-
-TierRing scaled(const TierRing& ring, float share) {
-    TierRing smaller = ring;
-    for (TierVertex& vertex : smaller) {
-        vertex.radius *= share;
-        vertex.openness *= TieredCrown::inner_openness + (1.0F - TieredCrown::inner_openness) * share;
-    }
-    return smaller;
-}
-
-TierRing mixed(const TierRing& one, const TierRing& other, float share_of_other) {
-    TierRing ring;
-    for (std::size_t side = 0; side < ring.size(); ++side) {
-        ring[side] = {glm::mix(one[side].radius, other[side].radius, share_of_other),
-            glm::mix(one[side].openness, other[side].openness, share_of_other)};
-    }
-    return ring;
-}
-
-/// A ring whose sides between the ends of boughs lie on the straight lines between those.
-TierRing without_gaps(const TierRing& ring, std::size_t tier) {
-    constexpr float cosine = 0.866025404F; // of a side
-    TierRing plain = ring;
-    for (std::size_t side = 0; side < ring.size(); ++side) {
-        if (TieredCrown::is_bough_end(tier, side)) { continue; }
-        const TierVertex& before = ring[(side + ring.size() - 1) % ring.size()];
-        const TierVertex& after = ring[(side + 1) % ring.size()];
-        plain[side] = {2.0F * cosine * before.radius * after.radius / (before.radius + after.radius),
-            0.5F * (before.openness + after.openness)};
-    }
-    return plain;
-}
-
-} // namespace
-
-void TieredCrown::find_tier(std::size_t tier, std::size_t level, float come, TierRing& low, TierRing& high) const {
-    const std::size_t coarse = tier / 2 * 2;
-    const TierRing& whole = lower_[coarse];
-    if (level < Icosphere::levels - 1) {
-        low = level == 0 ? without_gaps(whole, coarse) : mixed(without_gaps(whole, coarse), whole, come);
-        high = scaled(low, coarse_share_[coarse]);
-        return;
-    }
-    const float end = coarse + 2 < tiers ? heights[coarse + 2] : 1.0F;
-    const float middle = (heights[coarse + 1] - heights[coarse]) / (end - heights[coarse]);
-    const TierRing cut = scaled(whole, glm::mix(1.0F, coarse_share_[coarse], middle));
-    if (tier == coarse) {
-        low = whole;
-        high = mixed(cut, scaled(whole, upper_share_[tier]), come);
-    } else {
-        low = mixed(cut, lower_[tier], come);
-        high = mixed(scaled(whole, coarse_share_[coarse]), scaled(lower_[tier], upper_share_[tier]), come);
+    if (!has_ring) { return; }
+    for (std::size_t i = 0; i < spokes; ++i) {
+        const Corner& end = outline[4 * i];
+        const Corner own = view.corner_on(ways[4 * i], 0.8F + 0.2F * cosine, max_ring_share * end.off_axis);
+        ring[i] = view.mixed(view.mixed(middle, end, 0.45F), own, std::min(fineness, 1.0F));
     }
 }
 

@@ -5,111 +5,100 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <tuple>
-#include <vector>
 
 namespace octant::visuals::nature {
 
-/// An icosahedron with a corner at each pole whose edges are halved twice, the middles moved out to the unit sphere.
-/// Level 0 has the icosahedron's 20 faces, level 1 has 80, level 2 has 320. The vertices of a level are the first ones
-/// of the next.
-class Icosphere {
-public:
-    static constexpr std::size_t levels = 3;
-    static constexpr std::array<std::size_t, levels> vertex_counts{12, 42, 162};
-    static constexpr std::size_t max_faces = 320;
-
-    struct Face {
-        std::array<std::uint8_t, 3> corners{}; ///< counter-clockwise seen from outside
-        glm::vec3 plane{0.0F};                 ///< of its corners: dot(plane, corner) = 1
-    };
-
-    Icosphere();
-
-    std::array<glm::vec3, vertex_counts[levels - 1]> directions{};
-    /// The ends of the edge whose middle the vertex is; both 0 for the icosahedron's.
-    std::array<std::array<std::uint8_t, 2>, vertex_counts[levels - 1]> parents{};
-    std::array<std::vector<Face>, levels> faces;
-
-private:
-    void add_level(std::size_t level);
-};
-
-/// The one of which all broad-leaved crowns and bushes are made.
-const Icosphere& icosphere();
-
 enum class PlantKind : std::uint8_t { Broadleaf, Conifer, Shrub };
 
-/// The surface of a plant's leaves: on each ray from a point on the trunk's axis one place. All its triangles are
-/// those of the icosphere, and each lies in the cone over its face.
-///
-/// Painting order: seen from that point in the space in which the icosphere is a sphere, the cones are the faces of a
-/// convex polyhedron with the planes dot(plane, x) = 1. On a line of sight from eye e the cone of a face i is left
-/// for that of a face j only if dot(plane_j, e) < dot(plane_i, e). So the order by dot(plane, e), the greatest nearest,
-/// holds for every eye, whatever the distances of the places are.
-struct Crown {
-    struct Vertex {
-        glm::vec3 at{0.0F};     ///< east and north in radii of the plant, up in heights, from its foot
-        glm::vec3 normal{0.0F}; ///< unit
-        float openness = 1.0F;  ///< the share of light that leaves around it let through
-        float radius = 1.0F;    ///< on its ray, where the icosphere has 1
-        /// Where the vertex's ray meets the straight line between its parents, as a share of the way from the first:
-        /// there it changes nothing of the surface of the level before.
-        float on_chord = 0.5F;
-    };
-
-    std::array<Vertex, Icosphere::vertex_counts[Icosphere::levels - 1]> vertices{};
-    float centre = 0.5F;      ///< the height of that point
-    float half_height = 0.5F; ///< of the icosphere when its radius is 1
-    float lowest = 0.0F;      ///< No vertex lies lower.
-
-    /// The distance of a place on a ray, where the icosphere has 1, or less where the plant's circle and height end.
-    float within_room(const glm::vec3& way, float radius) const;
+/// The leaves of a plant on a ray from the crown's centre.
+struct CrownPoint {
+    float radius = 1.0F;    ///< the distance from the centre, in the space in which the crown is about a unit sphere
+    float openness = 1.0F;  ///< the share of light that leaves around it let through
+    glm::vec3 normal{0.0F}; ///< of any length
 };
 
-/// One of the crowns of broad-leaved trees or shrubs; all of them differ. Loading work.
-Crown make_crown(PlantKind kind, std::uint32_t variant);
-
-/// A corner of an edge of a tier.
-struct TierVertex {
-    float radius = 0.0F;   ///< in radii of the plant
-    float openness = 1.0F; ///< the share of light that leaves around it let through
-};
-
-using TierRing = std::array<TierVertex, 12>;
-
-/// The crown of a conifer: tiers of boughs, one on another, each a cone cut off below the next. Levels 0 and 1 have
-/// three tiers, at level 0 without gaps between boughs; at level 2 each of them is parted into two.
-///
-/// Painting order: level planes part the tiers. Planes through the axis cut a tier into parts for each of its sides,
-/// and the same holds for them as for the cones of a Crown: the order by dot(middle of the side, eye), the greatest
-/// nearest.
-class TieredCrown {
+/// The surface of a plant's leaves, clumps of them or boughs around a cone: on each ray from a point on the trunk's
+/// axis one place. Its space is scaled so that the crown is about as high as wide.
+class Crown {
 public:
-    static constexpr std::size_t sides = std::tuple_size_v<TierRing>;
-    static constexpr std::size_t tiers = 6;
-    static constexpr float lowest = 0.13F;
-    /// Of the tiers' lower edges, over the plant's.
-    static constexpr std::array<float, tiers> heights{lowest, 0.30F, 0.45F, 0.58F, 0.70F, 0.84F};
-    static constexpr float inner_openness = 0.35F; ///< at the trunk, over that at the ends of boughs
+    /// Loading work. All variants of a kind differ.
+    Crown(PlantKind kind, std::uint32_t variant);
 
-    /// Loading work. All variants differ.
-    explicit TieredCrown(std::uint32_t variant);
+    /// On the ray of a unit vector, within the plant's circle and height.
+    CrownPoint at(const glm::vec3& way) const;
 
-    /// From one tier to the next.
-    static std::size_t tiers_each(std::size_t level) { return level + 1 < Icosphere::levels ? 2 : 1; }
+    /// The place in the plant of a point of the crown's space: east and north in radii of the plant, up in heights,
+    /// from its foot.
+    glm::vec3 in_plant(const glm::vec3& from_centre) const {
+        return {from_centre.x, from_centre.y, centre_ + half_height_ * from_centre.z};
+    }
 
-    /// Whether a bough of a tier ends at a side: boughs stand above gaps.
-    static bool is_bough_end(std::size_t tier, std::size_t side) { return (tier + tier / 2 + side) % 2 == 0; }
+    /// The inverse of in_plant().
+    glm::vec3 from_centre(const glm::vec3& in_plant) const {
+        return {in_plant.x, in_plant.y, (in_plant.z - centre_) / half_height_};
+    }
 
-    /// Finds the edges of a tier, of which the upper one has shrunk to a point at the top. `come`: how far the vertices
-    /// of the level have come, 0..1. Levels 0 and 1 have even tiers only.
-    void find_tier(std::size_t tier, std::size_t level, float come, TierRing& low, TierRing& high) const;
+    /// No place of the surface is lower, in heights of the plant. Straight below its centre the crown reaches it.
+    float lowest() const { return lowest_; }
+
+    /// Clumps of leaves end on spokes of CrownSide if it is a cone, and between them if not.
+    bool is_cone() const { return is_cone_; }
+
+    /// How much nearer to the middle the outline is between two ends, as a share. `number`: of a spoke.
+    float notch_depth(std::size_t number) const { return notch_depths_[number]; }
+
+    /// Of the points at the map's nodes.
+    template <class Visit>
+    void for_each_direction(const Visit& visit) const {
+        for (std::size_t row = 0; row < nodes; ++row) {
+            for (std::size_t column = 0; column < nodes; ++column) {
+                visit(direction_of(column, row), points_[row * nodes + column]);
+            }
+        }
+    }
 
 private:
-    std::array<TierRing, tiers> lower_{};
-    std::array<float, tiers> upper_share_{};  ///< the upper edge, over the lower one
-    std::array<float, tiers> coarse_share_{}; ///< the same of an even tier and the next one taken as one
+    /// Along a side of the map of directions: an octahedron unfolded to a square, with the upper half in its middle
+    /// (Meyer and others, "On Floating-Point Normal Vectors", 2010). Nodes on its border are there twice.
+    static constexpr std::size_t nodes = 17;
+
+    static glm::vec3 direction_of(std::size_t column, std::size_t row);
+    float within_room(const glm::vec3& way, float radius) const;
+
+    std::array<CrownPoint, nodes * nodes> points_;
+    float centre_ = 0.5F;      ///< the centre's height
+    float half_height_ = 0.5F; ///< of what is one high in the crown's space
+    float lowest_ = 0.0F;
+    bool is_cone_;
+    std::array<float, 12> notch_depths_{};
+};
+
+/// What an eye sees of a crown: a surface of corners on its outline, a ring of corners before them and one in its
+/// middle. All lie on spokes from the middle, and on each of these the eye sees the outline farther out than the ring.
+/// So no part of the surface hides another one, whatever the clumps are like, and its triangles have no order.
+struct CrownSide {
+    struct Corner {
+        glm::vec3 from_centre{0.0F}; ///< in the crown's space
+        glm::vec3 normal{0.0F};      ///< of any length
+        float openness = 1.0F;
+        /// From the line between the eye and the centre, over the distance from the eye along that line.
+        float off_axis = 0.0F;
+    };
+
+    static constexpr std::size_t spokes = 12;
+    static constexpr std::size_t max_corners = 4 * spokes;
+
+    /// `eye`: in the crown's space. `fineness`: 0: 12 corners on the outline and no ring. As it grows to 1 the ring
+    /// comes, and then to 2 and 3 twice as many corners come each time.
+    CrownSide(const Crown& crown, const glm::vec3& eye, float fineness);
+
+    Corner middle;
+    bool has_ring = false;
+    std::array<Corner, spokes> ring;
+    /// Counter-clockwise as the eye sees it from the right: every `step`th is there, and those of a multiple of 4 lie
+    /// on the spokes of the ring.
+    std::array<Corner, max_corners> outline;
+    std::size_t step = 4;
 };
 
 } // namespace octant::visuals::nature

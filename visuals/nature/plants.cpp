@@ -9,8 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <limits>
-#include <span>
+#include <utility>
 
 namespace octant::visuals::nature {
 
@@ -20,14 +19,12 @@ namespace {
 /// Smaller ones are a polygon that faces the eye: conifers, other plants of few corners and those of more corners.
 constexpr float conifer_outline_px = 34.0F;
 constexpr float outline_px = 24.0F;
-constexpr float triangle_px = 20.0F; ///< conifers that look lower have three corners from the side
-constexpr float round_outline_px = 70.0F;
+constexpr float triangle_px = 20.0F;    ///< conifers that look lower have three corners from the side
 constexpr float bare_trunk_px = 36.0F;  ///< crowns of this size reach down to the ground ...
 constexpr float full_trunk_px = 90.0F;  ///< ... and have the whole trunk below them from this one on
 constexpr float flat_trunk_px = 120.0F; ///< smaller ones have a trunk of one face, towards the eye
-/// Where a level of the crown begins, and where its vertices have wholly come.
-constexpr std::array<glm::vec2, Icosphere::levels> level_px{
-    glm::vec2(0.0F), glm::vec2(80.0F, 130.0F), glm::vec2(160.0F, 270.0F)};
+/// Where the ring of a crown (CrownSide) and more corners of its outline begin to come, and where they have come.
+constexpr std::array crown_px{glm::vec2(50.0F, 75.0F), glm::vec2(60.0F, 90.0F), glm::vec2(110.0F, 180.0F)};
 constexpr float full_contrast_px = 90.0F;
 constexpr float min_contrast = 0.35F;
 /// Smaller plants take on their ground's colour, of which they have the share `max_ground_share` in the end.
@@ -52,10 +49,8 @@ float lean_of(const Plant& plant, float lowest_m) {
     return rise_m(plant) > lowest_m ? 1.0F - lowest_m / rise_m(plant) : 0.0F;
 }
 
-/// The number of the covers of closed woods (scene::LandCoverContrast), whose pattern leaves show.
-constexpr std::uint32_t leaves = 64;
-
-constexpr std::uint32_t no_vertex = ~std::uint32_t{0};
+/// Where leaves show the pattern of closed woods with the least contrast and with all of it.
+constexpr glm::vec2 pattern_px(14.0F, 80.0F);
 
 std::size_t variant_of(std::uint32_t random_bits) { return random_bits >> 24U & 3U; }
 
@@ -67,17 +62,18 @@ glm::vec2 turned(const glm::vec2& way, const glm::vec2& turn) {
     return {turn.x * way.x - turn.y * way.y, turn.y * way.x + turn.x * way.y};
 }
 
-/// Of the sides of conifers, counter-clockwise from east.
-constexpr std::array<glm::vec2, TieredCrown::sides> side_directions{glm::vec2(1.0F, 0.0F), {0.866025404F, 0.5F},
-    {0.5F, 0.866025404F}, {0.0F, 1.0F}, {-0.5F, 0.866025404F}, {-0.866025404F, 0.5F}, {-1.0F, 0.0F},
-    {-0.866025404F, -0.5F}, {-0.5F, -0.866025404F}, {0.0F, -1.0F}, {0.5F, -0.866025404F}, {0.866025404F, -0.5F}};
-
-constexpr glm::vec2 half_side(0.965925826F, 0.258819045F); ///< the cosine and sine of half the angle between two
-
-/// The direction in which boughs on a side catch light.
-glm::vec3 out_of_side(const glm::vec2& way) { return {0.8F * way, 0.6F}; }
+/// How far what comes between two sizes has come.
+float come_at(float px, const glm::vec2& between) {
+    return std::clamp((px - between.x) / (between.y - between.x), 0.0F, 1.0F);
+}
 
 float contrast_of(const Plant& plant) { return std::clamp(plant.height_px / full_contrast_px, min_contrast, 1.0F); }
+
+/// The number of the covers of which leaves show the pattern (scene::LandCoverContrast): 64 is that of closed woods,
+/// and those of less have less contrast.
+std::uint32_t covers_of_leaves(const Plant& plant) {
+    return 24U + static_cast<std::uint32_t>(40.0F * come_at(plant.height_px, pattern_px));
+}
 
 float ground_share_of(const Plant& plant) {
     const float small = (ground_colour_px.x - plant.height_px) / (ground_colour_px.x - ground_colour_px.y);
@@ -88,8 +84,8 @@ float ground_share_of(const Plant& plant) {
 
 PlantMesher::PlantMesher(const Daylight& day)
     : to_sun_(day.to_sun()), ambient_(day.ambient()),
-      sunlight_(day.sunlight()), tiered_{TieredCrown(0), TieredCrown(1), TieredCrown(2), TieredCrown(3)},
-      species_{make_species(PlantKind::Broadleaf), make_species(PlantKind::Conifer), make_species(PlantKind::Shrub)} {}
+      sunlight_(day.sunlight()), species_{make_species(PlantKind::Broadleaf), make_species(PlantKind::Conifer),
+                                     make_species(PlantKind::Shrub)} {}
 
 /// Leaves scatter light: sides just beyond the sun's reach have some.
 PlantMesher::Light PlantMesher::light_on(const glm::vec3& normal, float openness) const {
@@ -119,15 +115,6 @@ glm::vec3 PlantMesher::lit_leaf(const Plant& plant, const glm::vec3& leaf, const
     return lit(plant, leaf, {glm::mix(mean.ambient, light.ambient, contrast), glm::mix(mean.sun, light.sun, contrast)});
 }
 
-PlantMesher::Fineness PlantMesher::fineness_of(const Plant& plant) {
-    std::size_t level = Icosphere::levels - 1;
-    const float fine_px = plant.fineness * plant.height_px;
-    while (level > 0 && fine_px <= level_px[level].x) { --level; }
-    if (plant.kind != PlantKind::Conifer && level < 2) { return {1}; }
-    if (level == 0) { return {}; }
-    return {level, std::min((fine_px - level_px[level].x) / (level_px[level].y - level_px[level].x), 1.0F)};
-}
-
 PlantMesher::Species PlantMesher::make_species(PlantKind kind) const {
     Species species;
     float weight = 0.0F;
@@ -138,33 +125,10 @@ PlantMesher::Species PlantMesher::make_species(PlantKind kind) const {
         weight += share;
     };
     for (std::size_t variant = 0; variant < variants; ++variant) {
-        if (kind == PlantKind::Conifer) {
-            TierRing low;
-            TierRing high;
-            for (std::size_t tier = 0; tier < TieredCrown::tiers; ++tier) {
-                tiered_[variant].find_tier(tier, Icosphere::levels - 1, 1.0F, low, high);
-                for (std::size_t side = 0; side < TieredCrown::sides; ++side) {
-                    const glm::vec3 out = out_of_side(side_directions[side]);
-                    for (const TierVertex& vertex : {low[side], high[side]}) {
-                        add_to_mean(light_on(out, vertex.openness), vertex.radius);
-                    }
-                }
-            }
-            continue;
-        }
-        Crown& crown = species.crowns[variant];
-        crown = make_crown(kind, static_cast<std::uint32_t>(variant));
-        for (std::size_t turn = 0; turn < turns; ++turn) {
-            for (std::size_t i = 0; i < crown.vertices.size(); ++i) {
-                const auto& [at, normal, openness, radius, on_chord] = crown.vertices[i];
-                const Light light =
-                    light_on(glm::vec3(turned(glm::vec2(normal), compass_directions[turn]), normal.z), openness);
-                species.light[variant][turn][i] = light;
-                if (i < Icosphere::vertex_counts[1]) {
-                    add_to_mean(light, std::max(0.6F + icosphere().directions[i].z, 0.0F));
-                }
-            }
-        }
+        species.crowns.emplace_back(kind, static_cast<std::uint32_t>(variant));
+        species.crowns.back().for_each_direction([&](const glm::vec3& way, const CrownPoint& point) {
+            add_to_mean(light_on(glm::normalize(point.normal), point.openness), std::max(0.6F + way.z, 0.0F));
+        });
     }
     species.mean = {species.mean.ambient / weight, species.mean.sun / weight};
     const float sky = glm::dot(luminance_weights, ambient_);
@@ -189,7 +153,7 @@ struct PlantMesher::Placement {
     }
 };
 
-void PlantMesher::add(const Plant& plant, StandingMesh& to) {
+void PlantMesher::add(const Plant& plant, StandingMesh& to) const {
     const std::uint32_t bits = plant.random_bits;
     const bool is_conifer = plant.kind == PlantKind::Conifer;
     // Each changes at a size of its own.
@@ -198,10 +162,8 @@ void PlantMesher::add(const Plant& plant, StandingMesh& to) {
         add_outline(plant, to);
         return;
     }
-    const float own_lowest = is_conifer
-                                 ? TieredCrown::lowest
-                                 : species_[static_cast<std::size_t>(plant.kind)].crowns[variant_of(bits)].lowest;
-    const float grown = std::clamp((plant.height_px - bare_trunk_px) / (full_trunk_px - bare_trunk_px), 0.0F, 1.0F);
+    const float own_lowest = species_[static_cast<std::size_t>(plant.kind)].crowns[variant_of(bits)].lowest();
+    const float grown = come_at(plant.height_px, {bare_trunk_px, full_trunk_px});
     float lowest = std::min(own_lowest, glm::mix(0.03F, own_lowest, grown));
     if (plant.kind != PlantKind::Shrub) { // crowns on slopes are higher up their trunks, and stand upright
         lowest = std::max(lowest, std::min(max_slope_lowest, rise_m(plant) / plant.height_m));
@@ -219,173 +181,47 @@ void PlantMesher::add(const Plant& plant, StandingMesh& to) {
     const bool is_tree = plant.kind != PlantKind::Shrub;
     const bool eye_above = placement.eye.z > own_lowest;
     if (is_tree && !eye_above) { add_trunk(plant, placement, own_lowest, to); }
-    if (is_conifer) {
-        add_tiers(plant, placement, to);
-    } else if (own_px < round_outline_px) {
-        add_round_outline(plant, placement, to);
-    } else {
-        add_crown(plant, placement, to);
-    }
+    add_crown(plant, placement, to);
     if (is_tree && eye_above) { add_trunk(plant, placement, own_lowest, to); }
 }
 
-void PlantMesher::add_crown(const Plant& plant, const Placement& placement, StandingMesh& to) {
-    const Species& species = species_[static_cast<std::size_t>(plant.kind)];
-    const std::size_t variant = variant_of(plant.random_bits);
-    const Crown& crown = species.crowns[variant];
-    const CrownLight& light = species.light[variant][turn_of(plant.random_bits)];
-    const auto [level, come] = fineness_of(plant);
-    const Icosphere& sphere = icosphere();
-    const std::size_t old_count = level == 0 ? Icosphere::vertex_counts[0] : Icosphere::vertex_counts[level - 1];
-    const std::size_t count = Icosphere::vertex_counts[level];
-    const auto moved = [&, come = come](std::size_t i, const auto& value_of) {
-        const auto own = value_of(i);
-        if (i < old_count) { return own; }
-        const auto& [a, b] = sphere.parents[i];
-        const auto chord = value_of(a) + (value_of(b) - value_of(a)) * crown.vertices[i].on_chord;
-        return chord + (own - chord) * come;
-    };
-    for (std::size_t i = 0; i < count; ++i) {
-        places_m_[i] = placement.place_m(plant, moved(i, [&](std::size_t k) { return crown.vertices[k].at; }));
-    }
-    const glm::vec3 eye(placement.eye.x, placement.eye.y, (placement.eye.z - crown.centre) / crown.half_height);
-    std::size_t seen = 0;
-    const std::vector<Icosphere::Face>& faces = sphere.faces[level];
-    for (std::uint32_t i = 0; i < faces.size(); ++i) {
-        const auto& [a, b, c] = faces[i].corners;
-        if (StandingMesh::faces_eye(places_m_[a], places_m_[b], places_m_[c])) {
-            order_[seen++] = {glm::dot(faces[i].plane, eye), i};
-        }
-    }
-    std::sort(order_.begin(), order_.begin() + static_cast<std::ptrdiff_t>(seen), std::greater<>());
-    std::fill_n(numbers_.begin(), count, no_vertex);
+void PlantMesher::add_crown(const Plant& plant, const Placement& placement, StandingMesh& to) const {
+    const Crown& crown = species_[static_cast<std::size_t>(plant.kind)].crowns[variant_of(plant.random_bits)];
+    const float fine_px = plant.fineness * plant.height_px;
+    float fineness = 0.0F;
+    for (const glm::vec2& px : crown_px) { fineness += come_at(fine_px, px); }
+    const CrownSide side(crown, crown.from_centre(placement.eye), fineness);
     const glm::vec3 leaf = leaf_of(plant);
-    for (std::size_t k = 0; k < seen; ++k) {
-        for (const std::uint8_t corner : faces[order_[k].second].corners) {
-            std::uint32_t& number = numbers_[corner];
-            if (number == no_vertex) {
-                const float ambient = moved(corner, [&](std::size_t i) { return light[i].ambient; });
-                const float sun = moved(corner, [&](std::size_t i) { return light[i].sun; });
-                number = to.add(places_m_[corner], lit_leaf(plant, leaf, {ambient, sun}), leaves);
-            }
-            to.indices.push_back(number);
-        }
-    }
-}
-
-/// A polygon across the line of sight through the crown's centre, with corners on the crown's surface.
-void PlantMesher::add_round_outline(const Plant& plant, const Placement& placement, StandingMesh& to) const {
-    const Icosphere& sphere = icosphere();
-    constexpr float min_cosine = 0.84F; // the way to vertices of the icosphere among which means are taken
-    const Species& species = species_[static_cast<std::size_t>(plant.kind)];
-    const std::size_t variant = variant_of(plant.random_bits);
-    const Crown& crown = species.crowns[variant];
-    const CrownLight& light = species.light[variant][turn_of(plant.random_bits)];
-    const glm::vec3 leaf = leaf_of(plant);
-    const auto add = [&](const glm::vec3& way, float ragged) {
-        glm::vec3 sum(0.0F); // radius, ambient light, sunlight
-        float weight = 0.0F;
-        for (std::size_t i = 0; i < Icosphere::vertex_counts[1]; ++i) {
-            const float near = glm::dot(sphere.directions[i], way) - min_cosine;
-            if (near <= 0.0F) { continue; }
-            sum += near * near * glm::vec3(crown.vertices[i].radius, light[i].ambient, light[i].sun);
-            weight += near * near;
-        }
-        sum /= weight;
-        constexpr float is_lowest = -0.9F; // such corners reach down to the trunk
-        const float radius = way.z < is_lowest ? std::numeric_limits<float>::max() : sum.x * ragged;
-        const glm::vec3 from_centre =
-            crown.within_room(way, radius) * way * glm::vec3(1.0F, 1.0F, crown.half_height);
-        return to.add(placement.place_m(plant, glm::vec3(0.0F, 0.0F, crown.centre) + from_centre),
-            lit_leaf(plant, leaf, {sum.y, sum.z}), leaves);
+    const std::uint32_t covers = covers_of_leaves(plant);
+    const auto add_corner = [&](const CrownSide::Corner& corner) {
+        const glm::vec3 normal(turned(glm::vec2(corner.normal), placement.turn), corner.normal.z);
+        return to.add(placement.place_m(plant, crown.in_plant(corner.from_centre)),
+            lit_leaf(plant, leaf, light_on(glm::normalize(normal), corner.openness)), covers);
     };
-    const glm::vec3 to_eye = glm::normalize(
-        glm::vec3(placement.eye.x, placement.eye.y, (placement.eye.z - crown.centre) / crown.half_height));
-    const glm::vec3 right = glm::normalize(glm::vec3(-to_eye.y, to_eye.x + 1e-6F, 0.0F));
-    const glm::vec3 up = glm::cross(to_eye, right);
-    const std::uint32_t middle = add(to_eye, 0.0F);
-    constexpr auto corners = static_cast<std::uint32_t>(side_directions.size());
-    for (std::uint32_t i = 0; i < corners; ++i) {
-        const glm::vec2 way = turned(side_directions[i], half_side);
-        const float random = share_of(scrambled(plant.random_bits + i), 8) - 0.5F;
-        add(way.x * right + way.y * up, 1.0F + 0.24F * random);
-    }
-    for (std::uint32_t i = 0; i < corners; ++i) {
-        to.indices.insert(to.indices.end(), {middle, middle + 1 + i, middle + 1 + (i + 1) % corners});
-    }
-}
-
-void PlantMesher::add_tiers(const Plant& plant, const Placement& placement, StandingMesh& to) const {
-    std::array<std::pair<float, std::size_t>, TieredCrown::sides> nearness;
-    for (std::size_t side = 0; side < nearness.size(); ++side) {
-        const glm::vec2 middle = side_directions[side] + side_directions[(side + 1) % nearness.size()];
-        nearness[side] = {glm::dot(middle, glm::vec2(placement.eye)), side};
-    }
-    std::ranges::sort(nearness, std::ranges::greater());
-    SideOrder order;
-    std::ranges::transform(nearness, order.begin(), [](const auto& side) { return side.second; });
-    const std::size_t step = TieredCrown::tiers_each(fineness_of(plant).level);
-    std::size_t at_eye = 0;
-    while (at_eye + step < TieredCrown::tiers && placement.eye.z > TieredCrown::heights[at_eye + step]) {
-        at_eye += step;
-    }
-    for (std::size_t tier = at_eye; tier < TieredCrown::tiers; tier += step) {
-        add_tier(plant, placement, tier, order, to);
-    }
-    for (std::size_t tier = at_eye; tier > 0;) { add_tier(plant, placement, tier -= step, order, to); }
-}
-
-void PlantMesher::add_tier(
-    const Plant& plant, const Placement& placement, std::size_t tier, const SideOrder& order, StandingMesh& to) const {
-    constexpr float underside = 0.35F; // openness
-    const auto [level, come] = fineness_of(plant);
-    TierRing low;
-    TierRing high;
-    tiered_[variant_of(plant.random_bits)].find_tier(tier, level, come, low, high);
-    const std::size_t above = tier + TieredCrown::tiers_each(level);
-    const bool is_last = above >= TieredCrown::tiers;
-    const float low_height = TieredCrown::heights[tier];
-    const glm::vec3 leaf = leaf_of(plant);
-    struct Edge {
-        std::array<glm::vec3, TieredCrown::sides> at_m;
-        std::array<std::uint32_t, TieredCrown::sides> numbers;
+    const auto triangle = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+        to.indices.insert(to.indices.end(), {a, b, c});
     };
-    const auto edge_of = [&](const TierRing& ring, float height) {
-        Edge edge;
-        for (std::size_t side = 0; side < ring.size(); ++side) {
-            edge.at_m[side] = placement.place_m(plant, glm::vec3(ring[side].radius * side_directions[side], height));
+    const std::uint32_t middle = add_corner(side.middle);
+    const std::uint32_t first = middle + 1;
+    for (std::size_t i = 0; i < CrownSide::max_corners; i += side.step) { add_corner(side.outline[i]); }
+    constexpr auto spokes = static_cast<std::uint32_t>(CrownSide::spokes);
+    const auto each = static_cast<std::uint32_t>(4 / side.step); // sides of the outline from spoke to spoke
+    const std::uint32_t first_of_ring = first + each * spokes;
+    if (side.has_ring) {
+        for (const CrownSide::Corner& corner : side.ring) { add_corner(corner); }
+    }
+    for (std::uint32_t spoke = 0; spoke < spokes; ++spoke) {
+        const std::uint32_t next = (spoke + 1) % spokes;
+        if (!side.has_ring) {
+            triangle(middle, first + spoke, first + next);
+            continue;
         }
-        edge.numbers.fill(no_vertex);
-        return edge;
-    };
-    const auto number_of = [&](Edge& edge, const TierRing& ring, std::size_t side) {
-        if (edge.numbers[side] == no_vertex) {
-            const glm::vec3 out = out_of_side(turned(side_directions[side], placement.turn));
-            edge.numbers[side] = to.add(edge.at_m[side], lit_leaf(plant, leaf, light_on(out, ring[side].openness)), leaves);
+        triangle(middle, first_of_ring + spoke, first_of_ring + next);
+        for (std::uint32_t i = 0; i < each; ++i) {
+            const std::uint32_t corner = each * spoke + i;
+            triangle(first_of_ring + spoke, first + corner, first + (corner + 1) % (each * spokes));
         }
-        return edge.numbers[side];
-    };
-    Edge lower = edge_of(low, low_height);
-    Edge upper = edge_of(high, is_last ? 1.0F : TieredCrown::heights[above]);
-    const glm::vec3 middle_m = placement.place_m(plant, glm::vec3(0.0F, 0.0F, low_height));
-    // At level 0 tiers are convex: any order is right.
-    const std::size_t step = level == 0 ? 2 : 1;
-    for (const std::size_t side : order) {
-        if (step == 2 && !TieredCrown::is_bough_end(tier, side)) { continue; }
-        const std::size_t next = (side + step) % TieredCrown::sides;
-        const std::size_t top = is_last ? 0 : next;
-        if (StandingMesh::faces_eye(lower.at_m[side], lower.at_m[next], upper.at_m[top])) {
-            to.indices.insert(to.indices.end(),
-                {number_of(lower, low, side), number_of(lower, low, next), number_of(upper, high, top)});
-        }
-        if (!is_last && StandingMesh::faces_eye(lower.at_m[side], upper.at_m[next], upper.at_m[side])) {
-            to.indices.insert(to.indices.end(),
-                {number_of(lower, low, side), number_of(upper, high, next), number_of(upper, high, side)});
-        }
-        if (placement.eye.z < low_height) {
-            to.face(std::array{middle_m, lower.at_m[next], lower.at_m[side]},
-                lit_leaf(plant, leaf, light_on(glm::vec3(0.0F, 0.0F, -1.0F), underside)), leaves);
-        }
+        triangle(first_of_ring + spoke, first + each * next, first_of_ring + next);
     }
 }
 
@@ -457,7 +293,7 @@ void PlantMesher::add_outline(const Plant& plant, StandingMesh& to) const {
         const glm::vec2 off_m = radius_m * glm::vec2(out);
         const float up_m = over_foot_m + half_m * out.z + lean * plant.anchor.height_at_offset_m(off_m);
         const Light light = light_on(0.75F * out + 0.66F * to_eye, 0.85F + 0.10F * out.z);
-        to.add(foot_m + glm::vec3(off_m, up_m), lit_leaf(plant, leaf, light), leaves);
+        to.add(foot_m + glm::vec3(off_m, up_m), lit_leaf(plant, leaf, light), covers_of_leaves(plant));
     }
     for (std::uint32_t i = first + 2; i < to.vertices.size(); ++i) {
         to.indices.insert(to.indices.end(), {first, i - 1, i});

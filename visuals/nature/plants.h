@@ -9,7 +9,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <utility>
+#include <vector>
 
 namespace octant::visuals::nature {
 
@@ -25,8 +25,8 @@ struct Plant {
     std::uint32_t random_bits = 0;
 };
 
-/// Makes the triangles of plants under one daylight: a trunk and a crown whose triangles are halved as they grow in the
-/// picture, or in their place a polygon that faces the eye. Halves grow out of the triangle before them, and far crowns
+/// Makes the triangles of plants under one daylight: a trunk and a crown that has more triangles as it grows in the
+/// picture, or in their place a polygon that faces the eye. New triangles grow out of those before them, and far crowns
 /// have less contrast, so that nothing pops and little crawls.
 class PlantMesher {
 public:
@@ -34,7 +34,7 @@ public:
     explicit PlantMesher(const Daylight& day);
 
     /// Appends the triangles of a plant that face the eye, from near to far.
-    void add(const Plant& plant, StandingMesh& to);
+    void add(const Plant& plant, StandingMesh& to) const;
 
 private:
     static constexpr std::size_t kinds = 3;
@@ -47,12 +47,8 @@ private:
         float sun = 0.0F;
     };
 
-    using CrownLight = std::array<Light, Icosphere::vertex_counts[Icosphere::levels - 1]>;
-
     struct Species {
-        /// Of broad-leaved trees and shrubs, and the light on them turned by so many eighths.
-        std::array<Crown, variants> crowns;
-        std::array<std::array<CrownLight, turns>, variants> light;
+        std::vector<Crown> crowns;
         Light mean;
         glm::vec3 leaf{0.0F}; ///< display values, before light falls on it
     };
@@ -60,37 +56,19 @@ private:
     /// How a plant's crown space lies around the eye.
     struct Placement;
 
-    /// The triangles of a crown: its level, and how far the vertices of that have come, 0..1.
-    struct Fineness {
-        std::size_t level = 0;
-        float come = 1.0F;
-    };
-
-    using SideOrder = std::array<std::size_t, TieredCrown::sides>; ///< of a conifer, from near to far
-
-    static Fineness fineness_of(const Plant& plant);
     Light light_on(const glm::vec3& normal, float openness) const;
     glm::vec3 lit(const Plant& plant, const glm::vec3& own, const Light& light) const;
     glm::vec3 leaf_of(const Plant& plant) const;
     glm::vec3 lit_leaf(const Plant& plant, const glm::vec3& leaf, const Light& light) const;
     Species make_species(PlantKind kind) const;
-    void add_crown(const Plant& plant, const Placement& placement, StandingMesh& to);
-    void add_round_outline(const Plant& plant, const Placement& placement, StandingMesh& to) const;
-    void add_tiers(const Plant& plant, const Placement& placement, StandingMesh& to) const;
-    void add_tier(const Plant& plant, const Placement& placement, std::size_t tier, const SideOrder& order,
-        StandingMesh& to) const;
+    void add_crown(const Plant& plant, const Placement& placement, StandingMesh& to) const;
     void add_trunk(const Plant& plant, const Placement& placement, float lowest, StandingMesh& to) const;
     void add_outline(const Plant& plant, StandingMesh& to) const;
 
     glm::vec3 to_sun_;
     glm::vec3 ambient_;
     glm::vec3 sunlight_;
-    std::array<TieredCrown, variants> tiered_;
     std::array<Species, kinds> species_;
-    // Of one crown.
-    std::array<glm::vec3, Icosphere::vertex_counts[Icosphere::levels - 1]> places_m_{};
-    std::array<std::uint32_t, Icosphere::vertex_counts[Icosphere::levels - 1]> numbers_{};
-    std::array<std::pair<float, std::uint32_t>, Icosphere::max_faces> order_{};
 };
 
 } // namespace octant::visuals::nature

@@ -14,7 +14,7 @@ namespace octant::visuals::nature {
 
 namespace {
 
-constexpr float rim = 0.12F; ///< so far in and out of the outline, of its distance from the middle
+constexpr float unevenness = 0.10F; ///< of the outline, of its distance from the middle
 
 /// Of sixteen around the unit circle, counter-clockwise. `share`: how far the odd ones have come from the straight
 /// lines between the others.
@@ -55,10 +55,10 @@ bool SceneryShadows::begin(const std::array<models::ColourVertex, 3>& triangle) 
 void SceneryShadows::cut(Outline& outline, const glm::vec2& from_m, const glm::vec2& inwards) {
     Outline kept;
     for (std::size_t i = 0; i < outline.count; ++i) {
-        const glm::vec3& a = outline.at_m[i];
-        const glm::vec3& b = outline.at_m[i + 1 < outline.count ? i + 1 : 0];
-        const float a_in = glm::dot(inwards, glm::vec2(a) - from_m);
-        const float b_in = glm::dot(inwards, glm::vec2(b) - from_m);
+        const glm::vec2& a = outline.at_m[i];
+        const glm::vec2& b = outline.at_m[i + 1 < outline.count ? i + 1 : 0];
+        const float a_in = glm::dot(inwards, a - from_m);
+        const float b_in = glm::dot(inwards, b - from_m);
         if (a_in >= 0.0F) { kept.at_m[kept.count++] = a; }
         if ((a_in > 0.0F && b_in < 0.0F) || (a_in < 0.0F && b_in > 0.0F)) {
             kept.at_m[kept.count++] = glm::mix(a, b, a_in / (a_in - b_in));
@@ -76,70 +76,48 @@ std::optional<SceneryShadows::Ellipse> SceneryShadows::shadow_of(const ShadowCas
     const glm::vec2 along = drawn_out_m > 1e-3F ? half_m / drawn_out_m : glm::vec2(1.0F, 0.0F);
     const float width_m = caster.radius_m / (1.0F + 0.3F * caster.taper); // a tapered one is widest before its middle
     Ellipse ellipse{foot_m + half_m, long_m * along, width_m * glm::vec2(-along.y, along.x), caster.taper, {}};
-    const float reach_m = (1.0F + rim * caster.nearness) * long_m;
+    constexpr float reach = 1.0F + unevenness;
     for (std::size_t i = 0; i < 3; ++i) {
         const float inside_m = glm::dot(inwards_[i], ellipse.middle_m - glm::vec2(triangle_[i].position_m));
+        const float along_m = glm::dot(inwards_[i], ellipse.along_m);
+        const float aside_m = (1.0F + caster.taper) * glm::dot(inwards_[i], ellipse.aside_m);
+        const float reach_m = reach * std::sqrt(along_m * along_m + aside_m * aside_m);
         if (inside_m <= -reach_m) { return std::nullopt; }
         ellipse.crosses[i] = inside_m < reach_m;
     }
     return ellipse;
 }
 
-SceneryShadows::Ring SceneryShadows::ring_of(
-    const ShadowCaster& caster, const Ellipse& ellipse, float size, float strength, std::size_t step) const {
-    Ring ring;
-    for (std::size_t i = 0; i < corners / step; ++i) {
-        const glm::vec2 at_m = ellipse.place_m(corner_of(step * i, caster.nearness) * size);
-        ring[i].at_m = glm::vec3(at_m, strength);
-        for (unsigned side = 0; side < 3; ++side) {
-            const glm::vec2 off_m = at_m - glm::vec2(triangle_[side].position_m);
-            if (ellipse.crosses[side] && glm::dot(inwards_[side], off_m) < 0.0F) { ring[i].outside |= 1U << side; }
-        }
+SceneryShadows::Outline SceneryShadows::outline_of(const ShadowCaster& caster, const Ellipse& ellipse) {
+    // Convex: the corners between others are as far out as these are in the mean.
+    std::array<float, corners + 1> uneven;
+    for (std::size_t i = 0; i < corners; i += 2) {
+        const float random = static_cast<float>(caster.random_bits >> i & 3U) * (2.0F / 3.0F) - 1.0F;
+        uneven[i] = 1.0F + unevenness * (1.0F - 0.5F * caster.nearness) * random;
     }
-    return ring;
+    uneven[corners] = uneven[0];
+    for (std::size_t i = 1; i < corners; i += 2) { uneven[i] = 0.5F * (uneven[i - 1] + uneven[i + 1]); }
+    Outline outline;
+    for (std::size_t i = 0; i<corners; i += caster.nearness> 0.0F ? 1 : 2) {
+        outline.at_m[outline.count++] = ellipse.place_m(corner_of(i, caster.nearness) * uneven[i]);
+    }
+    return outline;
 }
 
 void SceneryShadows::add(const ShadowCaster& caster, float scale, const StandingTriangles& to) const {
     const std::optional<Ellipse> ellipse = shadow_of(caster);
     if (!ellipse) { return; }
-    const std::size_t step = caster.nearness > 0.0F ? 1 : 2;
-    const Ring ring = ring_of(caster, *ellipse, 1.0F - rim * caster.nearness, caster.strength, step);
-    add_part(std::span(ring).first(corners / step), scale, to);
-}
-
-void SceneryShadows::add_rim(const ShadowCaster& caster, float scale, const StandingTriangles& to) const {
-    if (caster.nearness <= 0.0F) { return; }
-    const std::optional<Ellipse> ellipse = shadow_of(caster);
-    if (!ellipse) { return; }
-    const Ring inner = ring_of(caster, *ellipse, 1.0F - rim * caster.nearness, caster.strength, 1);
-    const Ring outer = ring_of(caster, *ellipse, 1.0F + rim * caster.nearness, 0.0F, 1);
-    for (std::size_t i = 0; i < corners; ++i) {
-        const std::size_t next = (i + 1) % corners;
-        add_part(std::array{inner[i], outer[i], outer[next], inner[next]}, scale, to);
-    }
-}
-
-/// Cuts a convex polygon to the triangle and appends it.
-void SceneryShadows::add_part(std::span<const Corner> polygon, float scale, const StandingTriangles& to) const {
-    unsigned all_outside = ~0U;
-    unsigned any_outside = 0;
-    Outline outline;
-    for (const Corner& corner : polygon) {
-        all_outside &= corner.outside;
-        any_outside |= corner.outside;
-        outline.at_m[outline.count++] = corner.at_m;
-    }
-    if (all_outside != 0) { return; }
-    for (unsigned side = 0; side < 3; ++side) {
-        if ((any_outside >> side & 1U) != 0) { cut(outline, glm::vec2(triangle_[side].position_m), inwards_[side]); }
+    Outline outline = outline_of(caster, *ellipse);
+    for (std::size_t side = 0; side < 3; ++side) {
+        if (ellipse->crosses[side]) { cut(outline, glm::vec2(triangle_[side].position_m), inwards_[side]); }
     }
     if (outline.count < 3) { return; }
+    const float left = glm::mix(1.0F, left_, caster.strength);
     const auto& [a, b, c] = triangle_;
     const auto first = static_cast<std::uint32_t>(to.vertices.size());
     for (std::size_t i = 0; i < outline.count; ++i) {
-        const glm::vec2 plan_m(outline.at_m[i]);
+        const glm::vec2& plan_m = outline.at_m[i];
         const glm::vec3 at_m(plan_m, a.position_m.z + glm::dot(slope_, plan_m - glm::vec2(a.position_m)));
-        const float left = glm::mix(1.0F, left_, outline.at_m[i].z);
         const float u = std::clamp(signed_area2(b.position_m, c.position_m, at_m) / area_m2_, 0.0F, 1.0F);
         const float v = std::clamp(signed_area2(c.position_m, a.position_m, at_m) / area_m2_, 0.0F, 1.0F - u);
         std::uint32_t colour = 0;

@@ -10,8 +10,8 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <optional>
-#include <span>
 
 namespace octant::visuals::nature {
 
@@ -21,9 +21,10 @@ struct ShadowCaster {
     glm::vec2 slope{0.0F};  ///< of the ground on which it stands, metres up a metre east and north
     float radius_m = 1.0F;
     float height_m = 1.0F;
-    float strength = 1.0F; ///< 1: all sunlight is taken away; 0: none
-    float taper = 0.0F;    ///< how much narrower the shadow is at its end than in its middle, 0..1
-    float nearness = 0.0F; ///< 0: the outline is sharp and has 8 corners; 1: it has 16 and a whole soft rim
+    float strength = 1.0F;         ///< 1: all sunlight is taken away; 0: none
+    float taper = 0.0F;            ///< how much narrower the shadow is at its end than in its middle, 0..1
+    float nearness = 0.0F;         ///< 0: the outline has 8 corners; 1: it has 16
+    std::uint32_t random_bits = 0; ///< of the outline's unevenness
 };
 
 /// Cuts the shadows of what stands on the ground to a triangle of the ground. On the plan a shadow is the same on all
@@ -48,30 +49,17 @@ public:
     /// False only if no part of the shadow falls on the triangle.
     bool may_fall_on_triangle(const ShadowCaster& caster) const { return shadow_of(caster).has_value(); }
 
-    /// Appends the part of a shadow within its rim that falls on the triangle, if there is any. `scale`: towards the
-    /// eye.
+    /// Appends the part of a shadow that falls on the triangle, if there is any. `scale`: towards the eye.
     void add(const ShadowCaster& caster, float scale, const StandingTriangles& to) const;
-
-    /// Appends the part of a shadow's rim that falls on the triangle.
-    void add_rim(const ShadowCaster& caster, float scale, const StandingTriangles& to) const;
 
 private:
     static constexpr float min_sun_height = 0.05F; ///< sine of its elevation
     static constexpr float max_length = 2.5F;      ///< of a shadow, over its caster's height
     static constexpr std::size_t corners = 16;
 
-    /// A corner of a shadow: its place on the plan and the shadow's strength, and beyond which sides of the triangle it
-    /// lies, a bit for each.
-    struct Corner {
-        glm::vec3 at_m{0.0F};
-        unsigned outside = 0;
-    };
-
-    using Ring = std::array<Corner, corners>;
-
-    /// A convex polygon of such corners; each of three cuts adds one.
+    /// A convex polygon; each of three cuts adds a corner.
     struct Outline {
-        std::array<glm::vec3, corners + 3> at_m{};
+        std::array<glm::vec2, corners + 3> at_m{};
         std::size_t count = 0;
     };
 
@@ -81,7 +69,7 @@ private:
         glm::vec2 along_m; ///< half its length
         glm::vec2 aside_m; ///< half its width
         float taper;
-        std::array<bool, 3> crosses; ///< which sides of the triangle the shadow with its rim crosses
+        std::array<bool, 3> crosses; ///< which sides of the triangle the shadow may cross
 
         /// A place of the unit circle.
         glm::vec2 place_m(const glm::vec2& at) const {
@@ -91,10 +79,7 @@ private:
 
     std::optional<Ellipse> shadow_of(const ShadowCaster& caster) const;
     static void cut(Outline& outline, const glm::vec2& from_m, const glm::vec2& inwards);
-    /// The corners of an outline, or every `step`th of them.
-    Ring ring_of(
-        const ShadowCaster& caster, const Ellipse& ellipse, float size, float strength, std::size_t step) const;
-    void add_part(std::span<const Corner> polygon, float scale, const StandingTriangles& to) const;
+    static Outline outline_of(const ShadowCaster& caster, const Ellipse& ellipse);
 
     glm::vec3 to_sun_;
     float level_;       ///< cosine of the sun's elevation
@@ -103,7 +88,7 @@ private:
     std::array<models::ColourVertex, 3> triangle_{};
     std::array<glm::vec2, 3> inwards_{}; ///< unit vectors across the sides from each corner to the next
     glm::vec2 slope_{0.0F};
-    float area_m2_ = 1.0F;         ///< twice
+    float area_m2_ = 1.0F; ///< twice
 };
 
 } // namespace octant::visuals::nature
