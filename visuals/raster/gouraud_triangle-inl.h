@@ -70,13 +70,11 @@ public:
         const auto cover = hn::BitCast(bits, hn::Min(hn::Max(raw_cover, min_cover_), max_cover_));
         const auto both = hn::Or(hn::AndNot(hn::Set(bits, PackedGround::cover_bits), hn::BitCast(bits, near)),
             hn::ShiftRight<PackedGround::cover_shift>(cover));
-        const auto samples = hn::And(hn::BitCast(bits, fresh), is_even_);
         std::uint32_t* const to = buffer.ground_of_row(row) + (column_ + 1) / 2;
         const auto before = hn::LoadU(bits, to);
-        const auto without_sample =
-            hn::Eq(hn::And(samples, hn::Set(bits, PackedGround::sample * 0x10001U)), hn::Zero(bits));
-        const auto is_kept =
-            hn::Or(hn::Eq(samples, hn::Zero(bits)), hn::AndNot(hn::Eq(before, hn::Zero(bits)), without_sample));
+        const auto any_if_none = hn::VecFromMask(bits, hn::Eq(before, hn::Zero(bits)));
+        const auto wanted = hn::And(is_even_, hn::Or(any_if_none, hn::Set(bits, PackedGround::sample * 0x10001U)));
+        const auto is_kept = hn::Eq(hn::And(hn::BitCast(bits, fresh), wanted), hn::Zero(bits));
         hn::StoreU(hn::IfThenElse(is_kept, before, both), bits, to);
     }
 
