@@ -119,7 +119,7 @@ Crown::Crown(PlantKind kind, std::uint32_t variant) : is_cone_(kind == PlantKind
             point =
                 is_cone_ ? surface_of_cone(1.0F, (centre_ - lowest_) / (1.0F - centre_), way) : surface_of(clumps, way);
             point.radius *= 1.0F + rough * out;
-            point.openness *= 1.0F + 0.6F * out;
+            point.openness *= 1.0F + 0.4F * out;
             point.normal += rough * leaves.next_direction();
             top = std::max(top, point.radius * way.z);
         }

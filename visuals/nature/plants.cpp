@@ -18,13 +18,13 @@ namespace {
 // Heights of plants in the picture, pixels. Levels and the outline are those of a fineness of 1.
 /// Smaller ones are a polygon that faces the eye: conifers, other plants of few corners and those of more corners.
 constexpr float conifer_outline_px = 34.0F;
-constexpr float outline_px = 24.0F;
+constexpr float outline_px = 32.0F;
 constexpr float triangle_px = 20.0F;    ///< conifers that look lower have three corners from the side
 constexpr float bare_trunk_px = 36.0F;  ///< crowns of this size reach down to the ground ...
 constexpr float full_trunk_px = 90.0F;  ///< ... and have the whole trunk below them from this one on
 constexpr float flat_trunk_px = 120.0F; ///< smaller ones have a trunk of one face, towards the eye
 /// Where the ring of a crown (CrownSide) and more corners of its outline begin to come, and where they have come.
-constexpr std::array crown_px{glm::vec2(50.0F, 75.0F), glm::vec2(60.0F, 90.0F), glm::vec2(110.0F, 180.0F)};
+constexpr std::array crown_px{glm::vec2(70.0F, 105.0F), glm::vec2(70.0F, 100.0F), glm::vec2(100.0F, 160.0F)};
 constexpr float full_contrast_px = 90.0F;
 constexpr float min_contrast = 0.35F;
 /// Smaller plants take on their ground's colour, of which they have the share `max_ground_share` in the end.
@@ -178,11 +178,12 @@ void PlantMesher::add(const Plant& plant, StandingMesh& to) const {
     const float up_m = -foot_m.z - placement.base_m - placement.lean * plant.anchor.height_at_offset_m(level_m);
     placement.eye = glm::vec3((placement.turn.x * level_m.x + placement.turn.y * level_m.y) / plant.radius_m,
         (placement.turn.x * level_m.y - placement.turn.y * level_m.x) / plant.radius_m, up_m / placement.height_m);
-    const bool is_tree = plant.kind != PlantKind::Shrub;
+    constexpr float min_trunk_px = 1.5F;
+    const bool has_trunk = plant.kind != PlantKind::Shrub && lowest * plant.height_px > min_trunk_px;
     const bool eye_above = placement.eye.z > own_lowest;
-    if (is_tree && !eye_above) { add_trunk(plant, placement, own_lowest, to); }
+    if (has_trunk && !eye_above) { add_trunk(plant, placement, own_lowest, to); }
     add_crown(plant, placement, to);
-    if (is_tree && eye_above) { add_trunk(plant, placement, own_lowest, to); }
+    if (has_trunk && eye_above) { add_trunk(plant, placement, own_lowest, to); }
 }
 
 void PlantMesher::add_crown(const Plant& plant, const Placement& placement, StandingMesh& to) const {

@@ -39,8 +39,8 @@ constexpr float spare_share = 0.6F;          ///< of the triangles, after which 
 constexpr double crowd_reach_m = 250.0;      ///< from the eye
 constexpr float house_circle_m = 4.0F;       ///< no house where less fits
 constexpr float first_growth_ratio = 0.34F;  ///< of the reach: all things have grown by then
-constexpr glm::vec2 shadow_px(40.0F, 90.0F); ///< things look so high where their shadows begin and are whole
-constexpr glm::vec2 round_px(90.0F, 180.0F); ///< and so high where their outlines get twice as many corners
+constexpr glm::vec2 shadow_px(46.0F, 90.0F); ///< things look so high where their shadows begin and are whole
+constexpr glm::vec2 rim_px(100.0F, 190.0F);  ///< and so high where a soft rim begins and is whole
 constexpr float conifer_taper = 0.5F;
 constexpr float layer_part = 0.125F;            ///< of a layer: from one shadow to the next above it
 constexpr float shadow_radius_m = 5.0F;         ///< of most of them
@@ -177,11 +177,11 @@ public:
 
     void add_shadows(const std::array<models::ColourVertex, 3>& part, const StandingTriangles& to) override {
         if (casters_.empty() || !shadows_.begin(part)) { return; }
-        // The darkest shadows are painted last. Each is a part of a layer above the one before.
-        auto above = static_cast<float>(casters_.size());
-        for (const ShadowCaster& caster : casters_) {
-            shadows_.add(caster, depth_offset_factor(1.0F + layer_part * --above), to);
-        }
+        // Rims are painted first, the darkest shadows last. Each is a part of a layer above the one before.
+        auto above = static_cast<float>(2 * casters_.size());
+        const auto scale = [&] { return depth_offset_factor(1.0F + layer_part * --above); };
+        for (const ShadowCaster& caster : casters_) { shadows_.add(caster, scale(), to); }
+        for (const ShadowCaster& caster : casters_) { shadows_.add_rim(caster, scale(), to); }
     }
 
 private:
@@ -392,7 +392,7 @@ private:
             });
         for (const PlacedItem& one : placed_items_) {
             const float strength = std::min((one.height_px - shadow_px.x) / (shadow_px.y - shadow_px.x), 1.0F);
-            const float near = std::clamp((one.height_px - round_px.x) / (round_px.y - round_px.x), 0.0F, 1.0F);
+            const float near = std::clamp((one.height_px - rim_px.x) / (rim_px.y - rim_px.x), 0.0F, 1.0F);
             if (strength <= 0.0F) { continue; }
             const ShadowCaster caster{one.anchor.at_m, one.anchor.slope, one.radius_m, one.height_m,
                 strength * sun_of(one), one.item.kind == SceneryKind::Conifer ? conifer_taper : 0.0F, near,

@@ -14,6 +14,7 @@ namespace octant::visuals::nature {
 
 namespace {
 
+constexpr float rim = 0.12F;        ///< so far in and out of the outline, of its distance from the middle
 constexpr float unevenness = 0.10F; ///< of the outline, of its distance from the middle
 
 /// Of sixteen around the unit circle, counter-clockwise. `share`: how far the odd ones have come from the straight
@@ -55,10 +56,10 @@ bool SceneryShadows::begin(const std::array<models::ColourVertex, 3>& triangle) 
 void SceneryShadows::cut(Outline& outline, const glm::vec2& from_m, const glm::vec2& inwards) {
     Outline kept;
     for (std::size_t i = 0; i < outline.count; ++i) {
-        const glm::vec2& a = outline.at_m[i];
-        const glm::vec2& b = outline.at_m[i + 1 < outline.count ? i + 1 : 0];
-        const float a_in = glm::dot(inwards, a - from_m);
-        const float b_in = glm::dot(inwards, b - from_m);
+        const glm::vec3& a = outline.at_m[i];
+        const glm::vec3& b = outline.at_m[i + 1 < outline.count ? i + 1 : 0];
+        const float a_in = glm::dot(inwards, glm::vec2(a) - from_m);
+        const float b_in = glm::dot(inwards, glm::vec2(b) - from_m);
         if (a_in >= 0.0F) { kept.at_m[kept.count++] = a; }
         if ((a_in > 0.0F && b_in < 0.0F) || (a_in < 0.0F && b_in > 0.0F)) {
             kept.at_m[kept.count++] = glm::mix(a, b, a_in / (a_in - b_in));
@@ -76,7 +77,7 @@ std::optional<SceneryShadows::Ellipse> SceneryShadows::shadow_of(const ShadowCas
     const glm::vec2 along = drawn_out_m > 1e-3F ? half_m / drawn_out_m : glm::vec2(1.0F, 0.0F);
     const float width_m = caster.radius_m / (1.0F + 0.3F * caster.taper); // a tapered one is widest before its middle
     Ellipse ellipse{foot_m + half_m, long_m * along, width_m * glm::vec2(-along.y, along.x), caster.taper, {}};
-    constexpr float reach = 1.0F + unevenness;
+    const float reach = (1.0F + rim * caster.nearness) * (1.0F + unevenness);
     for (std::size_t i = 0; i < 3; ++i) {
         const float inside_m = glm::dot(inwards_[i], ellipse.middle_m - glm::vec2(triangle_[i].position_m));
         const float along_m = glm::dot(inwards_[i], ellipse.along_m);
@@ -88,7 +89,8 @@ std::optional<SceneryShadows::Ellipse> SceneryShadows::shadow_of(const ShadowCas
     return ellipse;
 }
 
-SceneryShadows::Outline SceneryShadows::outline_of(const ShadowCaster& caster, const Ellipse& ellipse) {
+SceneryShadows::Outline SceneryShadows::outline_of(
+    const ShadowCaster& caster, const Ellipse& ellipse, float size, float strength) {
     // Convex: the corners between others are as far out as these are in the mean.
     std::array<float, corners + 1> uneven;
     for (std::size_t i = 0; i < corners; i += 2) {
@@ -99,7 +101,8 @@ SceneryShadows::Outline SceneryShadows::outline_of(const ShadowCaster& caster, c
     for (std::size_t i = 1; i < corners; i += 2) { uneven[i] = 0.5F * (uneven[i - 1] + uneven[i + 1]); }
     Outline outline;
     for (std::size_t i = 0; i<corners; i += caster.nearness> 0.0F ? 1 : 2) {
-        outline.at_m[outline.count++] = ellipse.place_m(corner_of(i, caster.nearness) * uneven[i]);
+        const glm::vec2 at_m = ellipse.place_m(corner_of(i, caster.nearness) * (size * uneven[i]));
+        outline.at_m[outline.count++] = glm::vec3(at_m, strength);
     }
     return outline;
 }
@@ -107,16 +110,37 @@ SceneryShadows::Outline SceneryShadows::outline_of(const ShadowCaster& caster, c
 void SceneryShadows::add(const ShadowCaster& caster, float scale, const StandingTriangles& to) const {
     const std::optional<Ellipse> ellipse = shadow_of(caster);
     if (!ellipse) { return; }
-    Outline outline = outline_of(caster, *ellipse);
+    add_part(outline_of(caster, *ellipse, 1.0F - rim * caster.nearness, caster.strength), ellipse->crosses, scale, to);
+}
+
+void SceneryShadows::add_rim(const ShadowCaster& caster, float scale, const StandingTriangles& to) const {
+    if (caster.nearness <= 0.0F) { return; }
+    const std::optional<Ellipse> ellipse = shadow_of(caster);
+    if (!ellipse) { return; }
+    const Outline inner = outline_of(caster, *ellipse, 1.0F - rim * caster.nearness, caster.strength);
+    const Outline outer = outline_of(caster, *ellipse, 1.0F + rim * caster.nearness, 0.0F);
+    for (std::size_t i = 0; i < corners; ++i) {
+        const std::size_t next = (i + 1) % corners;
+        Outline part;
+        for (const glm::vec3& at_m : {inner.at_m[i], outer.at_m[i], outer.at_m[next], inner.at_m[next]}) {
+            part.at_m[part.count++] = at_m;
+        }
+        add_part(part, ellipse->crosses, scale, to);
+    }
+}
+
+/// Cuts a convex polygon to the sides of the triangle that it may cross and appends it.
+void SceneryShadows::add_part(
+    Outline outline, const std::array<bool, 3>& crosses, float scale, const StandingTriangles& to) const {
     for (std::size_t side = 0; side < 3; ++side) {
-        if (ellipse->crosses[side]) { cut(outline, glm::vec2(triangle_[side].position_m), inwards_[side]); }
+        if (crosses[side]) { cut(outline, glm::vec2(triangle_[side].position_m), inwards_[side]); }
     }
     if (outline.count < 3) { return; }
-    const float left = glm::mix(1.0F, left_, caster.strength);
     const auto& [a, b, c] = triangle_;
     const auto first = static_cast<std::uint32_t>(to.vertices.size());
     for (std::size_t i = 0; i < outline.count; ++i) {
-        const glm::vec2& plan_m = outline.at_m[i];
+        const glm::vec2 plan_m(outline.at_m[i]);
+        const float left = glm::mix(1.0F, left_, outline.at_m[i].z);
         const glm::vec3 at_m(plan_m, a.position_m.z + glm::dot(slope_, plan_m - glm::vec2(a.position_m)));
         const float u = std::clamp(signed_area2(b.position_m, c.position_m, at_m) / area_m2_, 0.0F, 1.0F);
         const float v = std::clamp(signed_area2(c.position_m, a.position_m, at_m) / area_m2_, 0.0F, 1.0F - u);

@@ -23,7 +23,7 @@ struct ShadowCaster {
     float height_m = 1.0F;
     float strength = 1.0F;         ///< 1: all sunlight is taken away; 0: none
     float taper = 0.0F;            ///< how much narrower the shadow is at its end than in its middle, 0..1
-    float nearness = 0.0F;         ///< 0: the outline has 8 corners; 1: it has 16
+    float nearness = 0.0F;         ///< 0: the outline is sharp and has 8 corners; 1: it has 16 and a whole soft rim
     std::uint32_t random_bits = 0; ///< of the outline's unevenness
 };
 
@@ -49,17 +49,21 @@ public:
     /// False only if no part of the shadow falls on the triangle.
     bool may_fall_on_triangle(const ShadowCaster& caster) const { return shadow_of(caster).has_value(); }
 
-    /// Appends the part of a shadow that falls on the triangle, if there is any. `scale`: towards the eye.
+    /// Appends the part of a shadow within its rim that falls on the triangle, if there is any. `scale`: towards the
+    /// eye.
     void add(const ShadowCaster& caster, float scale, const StandingTriangles& to) const;
+
+    /// Appends the part of a shadow's rim that falls on the triangle.
+    void add_rim(const ShadowCaster& caster, float scale, const StandingTriangles& to) const;
 
 private:
     static constexpr float min_sun_height = 0.05F; ///< sine of its elevation
     static constexpr float max_length = 2.5F;      ///< of a shadow, over its caster's height
     static constexpr std::size_t corners = 16;
 
-    /// A convex polygon; each of three cuts adds a corner.
+    /// A convex polygon on the plan, and the shadow's strength at its corners; each of three cuts adds a corner.
     struct Outline {
-        std::array<glm::vec2, corners + 3> at_m{};
+        std::array<glm::vec3, corners + 3> at_m{};
         std::size_t count = 0;
     };
 
@@ -79,7 +83,8 @@ private:
 
     std::optional<Ellipse> shadow_of(const ShadowCaster& caster) const;
     static void cut(Outline& outline, const glm::vec2& from_m, const glm::vec2& inwards);
-    static Outline outline_of(const ShadowCaster& caster, const Ellipse& ellipse);
+    static Outline outline_of(const ShadowCaster& caster, const Ellipse& ellipse, float size, float strength);
+    void add_part(Outline outline, const std::array<bool, 3>& crosses, float scale, const StandingTriangles& to) const;
 
     glm::vec3 to_sun_;
     float level_;       ///< cosine of the sun's elevation

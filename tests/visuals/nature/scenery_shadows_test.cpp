@@ -22,7 +22,7 @@ TEST_CASE("a shadow goes on over the side of two triangles, however they slope")
         GENERATE(0.0F, 1.0F), 0x2d9bU};
     SceneryShadows shadows{Daylight(day)};
 
-    // Where the shadow crosses that line on a triangle beside it.
+    // Where the shadow, with its rim, crosses that line on a triangle beside it.
     const auto crossing_m = [&](float third_x_m, float third_z_m) {
         const glm::vec3 south(0.0F, -40.0F, -eye_m);
         const glm::vec3 north(0.0F, 40.0F, -eye_m);
@@ -34,6 +34,7 @@ TEST_CASE("a shadow goes on over the side of two triangles, however they slope")
         std::vector<std::uint32_t> indices;
         std::vector<models::VertexRun> runs;
         shadows.add(caster, 1.0F, {vertices, indices, runs});
+        shadows.add_rim(caster, 1.0F, {vertices, indices, runs});
         glm::vec2 ends_m(1e9F, -1e9F);
         for (const ColourVertex& vertex : vertices) {
             if (std::abs(vertex.position_m.x) > 1e-4F) { continue; }
