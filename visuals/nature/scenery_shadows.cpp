@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <utility>
 
 namespace octant::visuals::nature {
 
@@ -119,8 +120,21 @@ void SceneryShadows::add_rim(const ShadowCaster& caster, float scale, const Stan
     if (!ellipse) { return; }
     const Outline inner = outline_of(caster, *ellipse, 1.0F - rim * caster.nearness, caster.strength);
     const Outline outer = outline_of(caster, *ellipse, 1.0F + rim * caster.nearness, 0.0F);
+    const auto sides_outside = [&](std::size_t corner) { // beyond which sides both of its places lie
+        unsigned outside = 0;
+        for (unsigned side = 0; side < 3; ++side) {
+            const auto is_outside = [&](const glm::vec3& at_m) {
+                return glm::dot(inwards_[side], glm::vec2(at_m) - glm::vec2(triangle_[side].position_m)) < 0.0F;
+            };
+            if (is_outside(inner.at_m[corner]) && is_outside(outer.at_m[corner])) { outside |= 1U << side; }
+        }
+        return outside;
+    };
+    unsigned outside_next = sides_outside(0);
     for (std::size_t i = 0; i < corners; ++i) {
         const std::size_t next = (i + 1) % corners;
+        const unsigned outside = std::exchange(outside_next, sides_outside(next));
+        if ((outside & outside_next) != 0) { continue; }
         Outline part;
         for (const glm::vec3& at_m : {inner.at_m[i], outer.at_m[i], outer.at_m[next], inner.at_m[next]}) {
             part.at_m[part.count++] = at_m;
@@ -133,7 +147,14 @@ void SceneryShadows::add_rim(const ShadowCaster& caster, float scale, const Stan
 void SceneryShadows::add_part(
     Outline outline, const std::array<bool, 3>& crosses, float scale, const StandingTriangles& to) const {
     for (std::size_t side = 0; side < 3; ++side) {
-        if (crosses[side]) { cut(outline, glm::vec2(triangle_[side].position_m), inwards_[side]); }
+        if (!crosses[side]) { continue; }
+        const glm::vec2 from_m(triangle_[side].position_m);
+        std::size_t outside = 0;
+        for (std::size_t i = 0; i < outline.count; ++i) {
+            outside += glm::dot(inwards_[side], glm::vec2(outline.at_m[i]) - from_m) < 0.0F ? 1U : 0U;
+        }
+        if (outside == outline.count) { return; }
+        if (outside > 0) { cut(outline, from_m, inwards_[side]); }
     }
     if (outline.count < 3) { return; }
     const auto& [a, b, c] = triangle_;
