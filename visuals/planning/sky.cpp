@@ -112,6 +112,10 @@ Sky::Sky(const nature::Daylight& day, nature::Backdrop land)
     for (const nature::Backdrop::BackdropVertex& corner : land_.vertices) {
         land_half_m_ = glm::max(land_half_m_, glm::abs(glm::dvec2(corner.at_m)));
     }
+    const std::size_t innermost = land_.vertices.size() - land_.outer_vertices;
+    for (const nature::Backdrop::BackdropVertex& corner : std::span(land_.vertices).subspan(innermost)) {
+        map_half_m_ = glm::max(map_half_m_, glm::abs(glm::dvec2(corner.at_m)));
+    }
 }
 
 /// Looks at the outermost of the land around the map.
@@ -254,9 +258,9 @@ void Sky::show_triangle(const std::uint32_t* corners, std::uint32_t first_vertex
     }
 }
 
-/// Adds the land's triangles in painting order: rings from outside in, in each the cells from the one that is opposite to
-/// the eye's as seen from the middle, and of a cell's two triangles the farther one first. A look from an eye inside all
-/// rings turns steadily away from the eye's cell, so nothing is painted over what hides it.
+/// Adds the land's triangles in painting order: rings from outside in, in each the cells from the one that is opposite
+/// to the eye's as seen from the middle, and of a cell's two triangles the farther one first. A look from an eye inside
+/// all rings turns steadily away from the eye's cell, so nothing is painted over what hides it.
 void Sky::show_land(const glm::dvec2& eye_m) {
     const auto first = static_cast<std::uint32_t>(sky_vertices_);
     const std::size_t cells = land_.outer_vertices;
@@ -280,7 +284,9 @@ void Sky::show_land(const glm::dvec2& eye_m) {
 
 scene::TriangleDraw Sky::around(
     const SurroundingPlain& plain, const scene::Haze& haze, const glm::dvec3& eye_m, const Frustum& frustum) {
-    const bool has_land = !land_.vertices.empty();
+    // From beyond the map and below the land it would be a ceiling.
+    const bool is_inside = std::max(std::abs(eye_m.x) - map_half_m_.x, std::abs(eye_m.y) - map_half_m_.y) <= 0.0;
+    const bool has_land = !land_.vertices.empty() && (is_inside || plain.height_below_eye_m > 0.0);
     SurroundingPlain beyond = plain;
     if (plain.height_below_eye_m <= 0.0 && std::isfinite(plain.height_below_eye_m)) {
         beyond.height_below_eye_m = raised_eye_m;

@@ -43,7 +43,7 @@ public:
     static constexpr Frustum all_around{glm::dvec3(0.0), glm::dvec3(0.0), glm::dvec3(0.0), glm::dvec3(0.0)};
 
     /// The triangles, in painting order, and their vertices stay valid until the next call; those outside a plane are
-    /// left out.
+    /// left out. From outside the map the land around it is left out below its mean height.
     scene::TriangleDraw around(const SurroundingPlain& plain, const scene::Haze& haze, const glm::dvec3& eye_m = {},
         const Frustum& frustum = all_around);
 
@@ -68,6 +68,7 @@ private:
     nature::WaterReflection water_;
     /// Half the extent of the land around the world's origin along both axes.
     glm::dvec2 land_half_m_{0.0};
+    glm::dvec2 map_half_m_{0.0}; ///< of the land's innermost ring
     /// The vertices of dome and sun, then those of the land.
     std::vector<models::ColourVertex> vertices_;
     std::vector<std::uint32_t> indices_; ///< of dome and sun

@@ -522,8 +522,8 @@ HWY_INLINE hn::Vec<PixelPairBits> sample_detail(
         const auto past = hn::BitCast(whole, hn::ShiftLeft<6>(hn::And(ground, pair_bits(3))));
         // Pairs that are not mixed look where they looked before, which is in the caches.
         const auto open = pattern_of(hn::IfThenZeroElse(is_mixed, first_rows));
-        const auto mixed = hn::Sub(
-            share_of(both, share_of_first(past)), share_of(open, share_of_first(hn::Sub(all, past))));
+        const auto mixed =
+            hn::Sub(share_of(both, share_of_first(past)), share_of(open, share_of_first(hn::Sub(all, past))));
         both = hn::IfThenElse(hn::RebindMask(whole, is_mixed), mixed, both);
     }
     const auto limited = hn::Min(hn::Max(both, hn::Set(whole, -32768)), hn::Set(whole, 32767));
@@ -583,8 +583,8 @@ public:
                 hn::Vec<PixelPairBits> even_ground;
                 hn::Vec<PixelPairBits> odd_ground;
                 hn::LoadInterleaved2(bits, ground + phases * i, even_ground, odd_ground);
-                hn::StoreInterleaved2(sample_detail(texels, even_ground, even),
-                    sample_detail(texels, odd_ground, odd), bits, &detail_texture.seen[phases * i]);
+                hn::StoreInterleaved2(sample_detail(texels, even_ground, even), sample_detail(texels, odd_ground, odd),
+                    bits, &detail_texture.seen[phases * i]);
             };
             if (row % 2 == 0) {
                 looked_up(a, interpolated_at({row, 1, i}, std::array{a, b}));

@@ -65,8 +65,8 @@ struct Mixture {
     }
 };
 
-/// Of the cover before one and of that one, by the second one's share. Before the first cover is land of its colour that
-/// does not change.
+/// Of the cover before one and of that one, by the second one's share. Before the first cover is land of its colour
+/// that does not change.
 Mixture mixture_of(std::size_t cover, double second, const std::array<LandCover, LandCoverContrast::covers>& covers) {
     Mixture mixture{{}, covers[cover], place_of_share(1.0 - second), cover == 1, cover == 3, 1.0};
     if (mixture.is_snow) { mixture.contrast = glm::mix(1.0, snow_contrast, std::min(4.0 * second, 1.0)); }
@@ -164,9 +164,7 @@ LandCoverContrast::LandCoverContrast(const std::array<LandCover, covers>& of, co
     : pattern_(&pattern) {
     table_.reserve(std::size_t{mixture_count} * pattern_step_count);
     for (int kind = 0; kind < mixture_count; ++kind) {
-        for (const glm::dvec3& shares : shares_of_kind(kind, of)) {
-            table_.push_back(packed_shares(shares));
-        }
+        for (const glm::dvec3& shares : shares_of_kind(kind, of)) { table_.push_back(packed_shares(shares)); }
     }
 }
 

@@ -182,6 +182,19 @@ TEST_CASE("what is painted last of the land around a map is the nearest, from ey
     CHECK(hidden > 3000);
 }
 
+TEST_CASE("from beyond the map and below the land around it that land is no ceiling") {
+    const visuals::nature::BackdropSource level{{3000.0, 2000.0}, 400.0, {}, std::nullopt,
+        [](const glm::dvec2&) { return 400.0; }, [](const glm::dvec2&, double) { return glm::vec3(0.5F); }};
+    Sky sky(sun_at(90.0, 35.0), make_backdrop(level));
+    const auto land_vertices = [&](const glm::dvec3& eye_m) {
+        const TriangleDraw draw = sky.around({eye_m.z - 400.0, 0.0, {}}, {{}, 20000.0F}, eye_m);
+        return draw.vertices.size() - sky.first_land_vertex();
+    };
+    CHECK(land_vertices({3500.0, 0.0, 100.0}) == 0);
+    CHECK(land_vertices({3500.0, 0.0, 500.0}) > 0);
+    CHECK(land_vertices({2900.0, 0.0, 100.0}) > 0);
+}
+
 TEST_CASE("haze thins with height, and has the sun's colour towards the sun") {
     const glm::vec3 black(0.0F);
     Haze haze{{1.0F, 1.0F, 1.0F}, 10000.0F};
