@@ -91,7 +91,7 @@ TEST_CASE("what an MTL file calls clear is apart from the body of an OBJ file") 
     CHECK(opacity(0) == 0.25F);
     CHECK(opacity(1) == 0.75F);
     const auto about = std::ranges::count_if(parts.body.notes, [](const std::string& note) {
-        return note.ends_with("glass.mtl:9: 'Tr 1' is not read as an opacity, nor are others like it");
+        return note.ends_with("glass.mtl:9: expected Tr below 1, or d, too, got 'Tr 1': not read");
     });
     CHECK(about == 1);
 }
