@@ -28,7 +28,7 @@ public:
     /// What the file holds, to be finished.
     MeshBuilder read() {
         while (text_.next_line()) { take(); }
-        note_missing_files();
+        finish_notes();
         return std::move(mesh_);
     }
 
@@ -153,9 +153,7 @@ private:
         const auto known = read_materials_.find(*material_name_);
         Material made = known == read_materials_.end() ? Material{.name = *material_name_} : known->second;
         if (std::exchange(made.is_mirror, false) && !is_transparent(made)) { // of meshes only that counts as glass
-            mesh_.add_note(
-                fmt::format("{}: material {} mirrors (illum 5 or 7) and is opaque: on a mesh it does not mirror",
-                    path_.string(), printable(made.name)));
+            opaque_mirrors_.push_back(made.name);
         }
         if (picture_.picture != BakedPictures::none && made.colour == glm::vec3(0.0F)) {
             made.colour = glm::vec3(1.0F); // written by programs that mean the picture alone
@@ -199,7 +197,7 @@ private:
         return true;
     }
 
-    void note_missing_files() {
+    void finish_notes() {
         for (const auto& [name, line] : missing_) {
             mesh_.add_note(fmt::format("{}:{}: material file {} is missing, its materials are drawn grey",
                 path_.string(), line, printable(name)));
@@ -207,6 +205,11 @@ private:
         for (const auto& [material, file] : moved_) {
             mesh_.add_note(fmt::format("{}: the options -o, -s and -t of the picture of material {} are not read",
                 file.string(), printable(material)));
+        }
+        if (!opaque_mirrors_.empty()) {
+            mesh_.add_note(
+                fmt::format("{}: opaque materials do not mirror on a mesh (illum 5 or 7): {}, the first is {}",
+                    path_.string(), opaque_mirrors_.size(), printable(opaque_mirrors_.front())));
         }
     }
 
@@ -220,6 +223,7 @@ private:
     std::map<std::string, polygons::MtlPicture> pictures_; ///< of materials
     std::map<std::string, std::string> emissive_pictures_; ///< of materials
     std::map<std::string, std::filesystem::path> moved_;   ///< materials whose picture has such options
+    std::vector<std::string> opaque_mirrors_;              ///< names
     PolygonPicture picture_;                               ///< of material_name_
     std::map<std::string, int> missing_;                   ///< with the line that names them first
     std::vector<CornerIndices> corners_;

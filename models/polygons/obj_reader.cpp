@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
+#include <cctype>
 #include <cmath>
 #include <cstddef>
 #include <filesystem>
@@ -61,6 +62,8 @@ public:
                 take_illumination();
             }
         }
+        finish_material();
+        finish_notes();
         return std::move(made_);
     }
 
@@ -75,12 +78,16 @@ private:
         const std::vector<std::string_view>& words = text_.words();
         std::size_t at = 0;
         while (at + 1 < words.size() && words[at].starts_with('-')) {
-            const std::string_view option = words[at++];
+            std::string option(words[at]); // some programs write -S
+            std::ranges::transform(
+                option, option.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
             constexpr std::array known{"-blendu", "-blendv", "-boost", "-bm", "-cc", "-clamp", "-imfchan", "-mm", "-o",
                 "-s", "-t", "-texres", "-type"};
-            if (std::ranges::find(known, option) == known.end()) {
-                text_.refuse("an option of MTL pictures", in_quotes(option));
+            if (std::ranges::find(known, option) == known.end()) { // the name begins with a dash
+                note({text_.line_number(), "an option of MTL pictures", text_of_line(), "read as part of the name"});
+                break;
             }
+            ++at;
             made.is_clamped = option == "-clamp" ? words[at] == "on" : made.is_clamped;
             const bool is_vector = option == "-o" || option == "-s" || option == "-t";
             made.is_moved = made.is_moved || is_vector;
@@ -98,14 +105,14 @@ private:
     void add_material(const std::string& name) {
         if (name.empty()) { text_.refuse("a material name after newmtl", "none"); }
         if (!names_.insert(name).second) { text_.refuse("a new material name", in_quotes(name) + " again"); }
+        finish_material();
         made_.materials.push_back({.name = name});
         material_ = name;
-        has_d_ = false;
     }
 
     void set_colour() {
         require_material("Kd");
-        bool is_good = text_.words().size() == 3;
+        bool is_good = values().size() == 3;
         for (int part = 0; is_good && part < 3; ++part) {
             const double value = text_.take_number().value_or(-1.0);
             is_good = value >= 0.0 && value <= 1.0;
@@ -114,44 +121,97 @@ private:
         if (!is_good) { text_.refuse("Kd and three numbers 0..1", in_quotes(text_.line())); }
     }
 
-    /// `d`, which takes precedence, or `Tr`. Forms that are not read leave the material as it is, with a note.
+    /// The words that follow, up to a comment.
+    std::vector<std::string_view> values() {
+        std::vector<std::string_view> words = text_.words();
+        const auto is_comment = [](std::string_view word) { return word.starts_with('#'); };
+        words.erase(std::ranges::find_if(words, is_comment), words.end());
+        return words;
+    }
+
+    /// What of `d` or `Tr` counts is known at the end of the material.
     void take_opacity(std::string_view keyword) {
         require_material(keyword);
         const bool is_d = keyword == "d";
         const bool is_halo = is_d && text_.skip("-halo");
-        const std::size_t numbers = text_.words().size();
-        const double value = text_.number(fmt::format("{} and a number", keyword));
-        if (is_halo || numbers != 1 || value < 0.0 || value > 1.0 || (!is_d && value == 1.0 && !has_d_)) {
-            note_opacity();
-            return;
+        const std::vector<std::string_view> words = values();
+        const auto value = words.empty() ? std::nullopt : finite_number(words.front());
+        const std::string_view wrong = is_halo                    ? "without -halo"
+                                       : !value                   ? "and a number"
+                                       : words.size() > 1         ? "and one number"
+                                       : *value < 0 || *value > 1 ? "of 0 to 1"
+                                       : !is_d && *value == 1.0   ? "below 1, or d, too"
+                                                                  : "";
+        if (wrong.empty()) {
+            (is_d ? d_ : tr_) = value;
+        } else {
+            unread_opacities_.push_back({text_.line_number(), fmt::format("{} {}", keyword, wrong), text_of_line()});
         }
-        if (!is_d && has_d_) { return; }
-        made_.materials.back().opacity = static_cast<float>(is_d ? value : 1.0 - value);
-        has_d_ = has_d_ || is_d;
     }
 
-    /// Only about the first line of a file: exporters write the same form for all materials.
-    void note_opacity() {
-        if (std::exchange(has_note_, true)) { return; }
-        made_.notes.push_back(fmt::format("{}:{}: '{}' is not read as an opacity, nor are others like it",
-            path_.string(), text_.line_number(), printable(std::string(text_.line()))));
+    /// `d` takes precedence: beside it nothing is said about a Tr that is not read.
+    void finish_material() {
+        if (d_ || tr_) { made_.materials.back().opacity = static_cast<float>(d_ ? *d_ : 1.0 - *tr_); }
+        for (const UnreadLine& line : unread_opacities_) {
+            if (!d_ || line.expected.starts_with("d ")) { note(line); }
+        }
+        d_ = tr_ = std::nullopt;
+        unread_opacities_.clear();
     }
 
     void take_illumination() {
         require_material("illum");
-        constexpr long last_model = 10;
-        const long model = text_.integer("illum and a number", 0, last_model);
-        if (!text_.words().empty()) { text_.refuse("the end of the line", in_quotes(text_.words().front())); }
-        made_.materials.back().is_mirror = model == 5 || model == 7;
+        constexpr std::string_view expected = "illum and a whole number of 0 to 10";
+        const std::vector<std::string_view> words = values();
+        const std::string_view first = words.empty() ? std::string_view() : words.front();
+        if (first.empty()) { text_.refuse(expected, "none"); }
+        if (first.find_first_of("+-.0123456789") != 0) { text_.refuse(expected, in_quotes(first)); }
+        const auto model = finite_number(first);
+        if (words.size() > 1 || !model || *model < 0.0 || *model > 10.0 || *model != std::floor(*model)) {
+            note({text_.line_number(), std::string(expected), text_of_line()});
+            return;
+        }
+        made_.materials.back().is_mirror = *model == 5.0 || *model == 7.0;
+    }
+
+    struct UnreadLine {
+        int number = 0;
+        std::string expected;
+        std::string text; ///< printable
+        std::string_view outcome = "not read";
+        int alike = 0; ///< lines after it of which the same was expected
+    };
+
+    std::string text_of_line() const { return in_quotes(text_.line()); }
+
+    /// The first line of each kind is named and the others are counted: exporters write one form for all materials.
+    void note(const UnreadLine& line) {
+        const auto known = std::ranges::find(unread_, line.expected, &UnreadLine::expected);
+        if (known == unread_.end()) {
+            unread_.push_back(line);
+        } else {
+            ++known->alike;
+        }
+    }
+
+    void finish_notes() {
+        std::ranges::sort(unread_, {}, &UnreadLine::number);
+        for (const UnreadLine& line : unread_) {
+            const std::string others = line.alike == 0 ? "" : fmt::format(", and {} more like it", line.alike);
+            made_.notes.push_back(fmt::format("{}:{}: expected {}, got {}{}: {}", path_.string(), line.number,
+                line.expected, line.text, others, line.outcome));
+        }
     }
 
     std::filesystem::path path_;
     TextScanner text_;
     MtlFile made_;
     std::set<std::string> names_;
-    std::string material_; ///< current
-    bool has_d_ = false;   ///< of the current material
-    bool has_note_ = false;
+    std::string material_;                     ///< current
+    std::optional<double> d_;                  ///< of the current material
+    std::optional<double> tr_;                 ///< of the current material
+    std::vector<UnreadLine> unread_opacities_; ///< of the current material
+    std::vector<UnreadLine> unread_;           ///< of the file
 };
 
 } // namespace

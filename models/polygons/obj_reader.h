@@ -36,11 +36,13 @@ struct MtlFile {
     std::vector<std::string> notes;              ///< what was left out, "file:line: ..."
 };
 
-/// Reads an MTL file. A material without Kd has the default colour. Ignores other lines. Leaves out, with one note a
-/// file, opacities outside 0..1, of several numbers or with -halo, and a Tr of 1, whose meaning differs between
-/// programs. Throws Error "file:line: expected ..., got ..." for a Kd that is not three numbers 0..1, a d or Tr without
-/// a number, an illum that is not a whole number 0..10, an unknown option of a picture, any of these before the first
-/// newmtl, for a name that is missing or comes twice, and for a file that is not text.
+/// Reads an MTL file. A material without Kd has the default colour. Ignores other lines, and what follows a word that
+/// begins with # behind numbers. Leaves out, with one note for each kind in a file: opacities outside 0..1, unreadable
+/// ones, of several numbers or with -halo, a Tr of 1 without a d, whose meaning differs between programs, and an illum
+/// that is not one whole number 0..10. A word after a dash that is no option of a picture begins its name, with a note.
+/// Throws Error "file:line: expected ..., got ..." for a Kd that is not three numbers 0..1, an illum that does not
+/// begin as a number, any of these before the first newmtl, for a name that is missing or comes twice, and for a file
+/// that is not text.
 MtlFile read_mtl(const std::filesystem::path& path);
 
 /// Reads a Wavefront OBJ file of polygons, coordinates in metres in the file's `axes`. Concave and bent polygons are

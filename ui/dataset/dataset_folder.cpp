@@ -398,7 +398,9 @@ std::string DatasetFolder::card(std::uint64_t pictures, std::uint64_t objects) c
     for (const OutputName& each : output_names) {
         if (dataset_.outputs.*each.member) { text += fmt::format("- {}: {}\n", each.name, each.meaning); }
     }
-    text += "\nClasses:";
+    text +=
+        "\nDiscs of fast rotors are in the pictures but not in boxes, masks and areas; `--no-effects` draws blades, "
+        "which are.\n\nClasses:";
     for (std::size_t i = 0; i < octant::surface_class_count; ++i) {
         text += fmt::format("{} {} = {}", i == 0 ? "" : ",", i, octant::name_of(static_cast<octant::SurfaceClass>(i)));
     }

@@ -510,7 +510,7 @@ public:
     }
 
     /// The radius of a hub: of what covers most of each circle about the axis, and its corners; 0 without one. Nothing
-    /// where most of the disc is covered.
+    /// where most of the disc is covered, or that radius is not smaller than the disc's.
     std::optional<double> hub_radius_m() const {
         std::size_t hub = 0; // circles
         std::size_t all = 0; // places that are covered
@@ -521,7 +521,8 @@ public:
         }
         if (static_cast<double>(all) > max_solidity * circles * directions) { return std::nullopt; }
         constexpr double corners = 1.25; // of a hub of few sides, over the radius of its sides
-        return hub == 0 ? 0.0 : radius_m_ * (corners * static_cast<double>(hub) + 1.0) / circles;
+        const double share = hub == 0 ? 0.0 : (corners * static_cast<double>(hub) + 1.0) / circles;
+        return share < 1.0 ? std::optional(radius_m_ * share) : std::nullopt;
     }
 
 private:
@@ -775,8 +776,9 @@ bool turns(const RotorDisc& disc, const MovingPartMesh& part) {
     return part.pivot && std::ranges::find(disc.pivots, *part.pivot) != disc.pivots.end();
 }
 
-/// RotorDisc::root_m with parts that are meshes: without a hub 0, where they cover most of the disc all of it.
-double hub_radius_m(const AircraftModel& model, const RotorDisc& disc, std::span<const MovingPartMesh> parts) {
+/// RotorDisc::root_m with parts that are meshes: without a hub 0. Nothing where they cover most of the disc.
+std::optional<double> hub_radius_m(
+    const AircraftModel& model, const RotorDisc& disc, std::span<const MovingPartMesh> parts) {
     const double radius_m = std::max(disc.sides[0].radius_m, disc.sides[1].radius_m);
     DiscCoverage coverage(model.polygons.pivots[disc.pivots.front()], radius_m);
     for (const MovingPartMesh& part : parts) {
@@ -786,7 +788,24 @@ double hub_radius_m(const AircraftModel& model, const RotorDisc& disc, std::span
             coverage.add(std::array{places_m[triangle[0]], places_m[triangle[1]], places_m[triangle[2]]});
         }
     }
-    return coverage.hub_radius_m().value_or(radius_m);
+    return coverage.hub_radius_m();
+}
+
+/// Writes RotorDisc::root_m with parts that are meshes, and removes the discs most of which they cover.
+void fit_discs(AircraftModel& model, std::span<const MovingPartMesh> parts) {
+    std::vector<RotorDisc> kept;
+    std::vector<std::uint32_t> numbers; // of each disc among those, models::none of the others
+    for (const RotorDisc& disc : model.discs) {
+        const std::optional<double> hub_m = hub_radius_m(model, disc, parts);
+        numbers.push_back(hub_m ? static_cast<std::uint32_t>(kept.size()) : models::none);
+        if (!hub_m) { continue; }
+        kept.push_back(disc);
+        kept.back().root_m = *hub_m;
+    }
+    model.discs = std::move(kept);
+    if (model.discs.empty()) { model.disc_of_polygon.clear(); }
+    for (std::uint32_t& disc : model.disc_of_polygon) { disc = disc == models::none ? disc : numbers[disc]; }
+    model.opacity_runs = opacity_runs_of(model.polygons, model.order.polygons(), model.discs, model.disc_of_polygon);
 }
 
 /// Moves the triangles of a disc's blades from the index buffer, from `first` on, to `blades`.
@@ -815,8 +834,8 @@ void take_blades(AircraftModel& model, const RotorDisc& disc, std::uint32_t firs
 void add_moving_parts(AircraftModel& model, std::span<const MovingPartMesh> parts) {
     assert(model.progressive != nullptr && model.turning.index_count == 0);
     model.turning.first_index = static_cast<std::uint32_t>(model.buffers.indices.size());
+    fit_discs(model, parts);
     std::vector<std::vector<std::uint32_t>> blades(model.discs.size());
-    for (RotorDisc& disc : model.discs) { disc.root_m = hub_radius_m(model, disc, parts); }
     std::size_t next = model.polygons.pivots.size();
     for (const MovingPartMesh& part : parts) {
         const std::size_t number = part.pivot ? *part.pivot : next++;

@@ -582,7 +582,8 @@ private:
             const bool is_in_front = one.place == Transparent::Place::Apart && away_m2(boxes_[one.box]) <= group_m2;
             return is_in_front ? last : static_cast<int>(one.place);
         };
-        std::ranges::sort(group_transparents_, [&](const Transparent& a, const Transparent& b) {
+        // Discs of one aircraft keep their order.
+        std::ranges::stable_sort(group_transparents_, [&](const Transparent& a, const Transparent& b) {
             const int a_stage = stage_of(a);
             const int b_stage = stage_of(b);
             return a_stage != b_stage ? a_stage < b_stage : is_nearer(boxes_, b.box, a.box);

@@ -91,9 +91,19 @@ TEST_CASE("what an MTL file calls clear is apart from the body of an OBJ file") 
     CHECK(opacity(0) == 0.25F);
     CHECK(opacity(1) == 0.75F);
     const auto about = std::ranges::count_if(parts.body.notes, [](const std::string& note) {
-        return note.ends_with("glass.mtl:9: 'Tr 1' is not read as an opacity, nor are others like it");
+        return note.ends_with("glass.mtl:9: expected Tr below 1, or d, too, got 'Tr 1': not read");
     });
     CHECK(about == 1);
+}
+
+TEST_CASE("of many opaque materials that mirror, which those of meshes do not, one note tells") {
+    file_with("mirrors.mtl", "newmtl a\nillum 5\nnewmtl b\nillum 7\nnewmtl c\nillum 2\nnewmtl pane\nd 0.5\nillum 5\n");
+    const TriangleMesh mesh = read_obj_text(
+        std::string(three) + "mtllib mirrors.mtl\nusemtl a\nf 1 2 3\nusemtl b\nf 1 2 3\nusemtl c\nf 1 2 3\n"
+                             "usemtl pane\nf 1 2 3\n");
+    REQUIRE(mesh.notes.size() == 1);
+    CHECK_THAT(mesh.notes[0],
+        Catch::EndsWith("part.obj: opaque materials do not mirror on a mesh (illum 5 or 7): 2, the first is a"));
 }
 
 TEST_CASE("a missing MTL file is noted") {

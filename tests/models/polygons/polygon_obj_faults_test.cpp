@@ -107,18 +107,62 @@ TEST_CASE("material faults are refused at their line") {
     CHECK(mtl("newmtl a\nKd 1 1\n") == "bad.mtl:2: expected Kd and three numbers 0..1, got 'Kd 1 1'");
     CHECK(mtl("newmtl a\nKd 1 1 1.5\n") == "bad.mtl:2: expected Kd and three numbers 0..1, got 'Kd 1 1 1.5'");
     CHECK(mtl("newmtl a\nKd 1 nan 1\n") == "bad.mtl:2: expected Kd and three numbers 0..1, got 'Kd 1 nan 1'");
-    CHECK(mtl("newmtl a\nillum glass\n") == "bad.mtl:2: expected illum and a number of 0 to 10, got 'glass'");
-    CHECK(mtl("newmtl a\nillum\n") == "bad.mtl:2: expected illum and a number, got none");
-    CHECK(mtl("newmtl a\nillum 11\n") == "bad.mtl:2: expected illum and a number of 0 to 10, got '11'");
-    CHECK(mtl("newmtl a\nillum 5 7\n") == "bad.mtl:2: expected the end of the line, got '7'");
-    CHECK(mtl("newmtl a\nd clear\n") == "bad.mtl:2: expected d and a number, got 'clear'");
-    CHECK(mtl("newmtl a\nTr nan\n") == "bad.mtl:2: expected Tr and a number, got 'nan'");
-    CHECK(mtl("newmtl a\nmap_Kd -shift 1 a.png\n") == "bad.mtl:2: expected an option of MTL pictures, got '-shift'");
+    CHECK(mtl("newmtl a\nillum glass\n") == "bad.mtl:2: expected illum and a whole number of 0 to 10, got 'glass'");
+    CHECK(mtl("newmtl a\nillum\n") == "bad.mtl:2: expected illum and a whole number of 0 to 10, got none");
     for (const std::string line : {"illum 5", "d 1", "Tr 0", "map_Kd a.png", "map_Ke a.png"}) {
         const std::string word = line.substr(0, line.find(' '));
         CHECK(mtl(line + "\n") == "bad.mtl:1: expected newmtl before " + word + ", got " + word);
     }
     CHECK(mtl("newmtl a\nnewmtl b\nnewmtl a\n") == "bad.mtl:3: expected a new material name, got 'a' again");
+}
+
+TEST_CASE("lines of materials that are not read are told, the first of each kind, and leave the material as it is") {
+    const auto read = [](const std::string& text) {
+        octant::write_file(scratch("odd.mtl"), text);
+        return read_mtl(scratch("odd.mtl"));
+    };
+    const auto notes = [&](const std::string& text) {
+        std::vector<std::string> told = read(text).notes;
+        for (std::string& note : told) { note.erase(0, scratch("").string().size()); }
+        return told;
+    };
+    const auto one = [](const std::string& note) { return std::vector<std::string>{"odd.mtl:" + note}; };
+    CHECK(notes("newmtl a\nillum 30\nnewmtl b\nillum 5\nillum -1\nillum 2.5\nillum 5 7\n") ==
+          one("2: expected illum and a whole number of 0 to 10, got 'illum 30', and 3 more like it: not read"));
+    CHECK(read("newmtl a\nillum 5\nillum 30\n").materials[0].is_mirror);
+    CHECK(notes("newmtl a\nd 1,000\n") == one("2: expected d and a number, got 'd 1,000': not read"));
+    CHECK(notes("newmtl a\nTr nan\n") == one("2: expected Tr and a number, got 'Tr nan': not read"));
+    CHECK(
+        notes("newmtl a\nTr 1\nnewmtl b\nd 1.5\nnewmtl c\nTr 1.0\nd -halo 0.5\n") ==
+        std::vector<std::string>{"odd.mtl:2: expected Tr below 1, or d, too, got 'Tr 1', and 1 more like it: not read",
+            "odd.mtl:4: expected d of 0 to 1, got 'd 1.5': not read",
+            "odd.mtl:7: expected d without -halo, got 'd -halo 0.5': not read"});
+    CHECK(read("newmtl a\nd 1.5\nnewmtl b\nTr 1\n").materials[0].opacity == 1.0F);
+    CHECK(notes("newmtl a\nTr 1.0\nd 1.0\nnewmtl b\nd 0.5\nTr x\n").empty());
+}
+
+TEST_CASE(
+    "materials are read as exporters write them: reals for whole numbers, comments, names that begin with dashes") {
+    octant::write_file(scratch("real.mtl"), "newmtl a\nKd 1 0 0 # red\nillum 5.0\nmap_Kd -S 1 1 1 a.png\n"
+                                            "newmtl b\nillum 7 # glass\nd 0.5 # half\nmap_Kd -clamp on -Left Wing.png\n"
+                                            "newmtl c\nillum 2.0\nmap_Kd - Kopie.png\nnewmtl d\nmap_Kd -wing.png\n");
+    const MtlFile read = read_mtl(scratch("real.mtl"));
+    CHECK(read.materials[0].colour == glm::vec3(1.0F, 0.0F, 0.0F));
+    CHECK(read.materials[0].is_mirror);
+    CHECK(read.materials[1].is_mirror);
+    CHECK_FALSE(read.materials[2].is_mirror);
+    CHECK(read.materials[1].opacity == 0.5F);
+    REQUIRE(read.pictures.size() == 4);
+    CHECK(read.pictures[0].second.file == "a.png");
+    CHECK(read.pictures[0].second.is_moved);
+    CHECK(read.pictures[1].second.file == "-Left Wing.png");
+    CHECK(read.pictures[1].second.is_clamped);
+    CHECK(read.pictures[2].second.file == "- Kopie.png");
+    CHECK(read.pictures[3].second.file == "-wing.png");
+    REQUIRE(read.notes.size() == 1);
+    CHECK(read.notes[0] == scratch("real.mtl").string() +
+                               ":8: expected an option of MTL pictures, got 'map_Kd -clamp on -Left Wing.png', and 1 "
+                               "more like it: read as part of the name");
 }
 
 TEST_CASE("pivot faults are refused at their line") {

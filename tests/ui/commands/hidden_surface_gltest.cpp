@@ -143,6 +143,12 @@ TEST_CASE("painting in order shows the polygons that the depth buffer shows, ove
     }
 }
 
+TEST_CASE("painting in order shows the polygons that the depth buffer shows, with discs in place of blades") {
+    ui::settings::RunSettings settings = canyon_flight("pop-up", "500md", visuals::scene::View::Chase);
+    REQUIRE_FALSE(settings.surface.effects.has_value());
+    check_as_by_depth(settings, 240, 5);
+}
+
 TEST_CASE("models of hundreds of polygons are painted as rays see them") {
     // A torus and two that pass through it, the second of which repeats the first polygon by polygon: rings, cuts and
     // polygons in one plane. Where polygons cross, a depth buffer rounds.

@@ -88,6 +88,7 @@ TEST_CASE("a data set is finished when its last sample is, and goes on where it 
         Contains("octant dataset --path straight --path turn --terrain none --outputs rgb,boxes --count 3 --seed 5 "
                  "--format coco"));
     CHECK_THAT(card, Contains("Objects with visible pixels, in all pictures: 3."));
+    CHECK_THAT(card, Contains("`--no-effects` draws blades"));
     CHECK_THAT(card, Contains("| path | straight\\|turn |") && Contains("contact-sheet.png"));
     fs::remove(path / "images/000001.png");
     CHECK_FALSE(again.is_finished(1));

@@ -496,7 +496,10 @@ TEST_CASE("what turns beside a refined aircraft is drawn after it by the same de
     }
 }
 
-TEST_CASE("blades that turn fast are not drawn by depth either, but their disc is, after all that is opaque") {
+namespace {
+
+/// A box with a blade of two polygons that turns fast before it, and a progressive mesh of the box.
+planning::AircraftModel propeller_aircraft() {
     models::polygons::PolygonModel polygons = box_model({4.0, 4.0, 1.0});
     const auto first = static_cast<std::uint32_t>(polygons.vertices_m.size());
     polygons.parts.emplace_back("propeller");
@@ -510,6 +513,13 @@ TEST_CASE("blades that turn fast are not drawn by depth either, but their disc i
     }
     planning::AircraftModel model = convex_aircraft(polygons);
     planning::add_progressive(model, hierarchy(), 0.2);
+    return model;
+}
+
+} // namespace
+
+TEST_CASE("blades that turn fast are not drawn by depth either, but their disc is, after all that is opaque") {
+    planning::AircraftModel model = propeller_aircraft();
     models::TriangleMesh propeller; // a blade of two triangles, and a hub of two between them
     propeller.vertices_m = {{5, -0.2, 0.5}, {5, 0.2, 0.5}, {5, 0, 6}, {5.5, -0.5, -0.5}, {5.5, 0.5, -0.5},
         {5.5, 0.5, 0.5}, {5.5, -0.5, 0.5}};
@@ -533,4 +543,28 @@ TEST_CASE("blades that turn fast are not drawn by depth either, but their disc i
         CHECK((plan.steps.back().content == scene::PaintStep::Content::Transparent) == !is_held);
         CHECK(plan.steps.back().depth == scene::DepthUse::Nearest);
     }
+}
+
+TEST_CASE("a mesh that fills the circle of the polygons' blades is drawn as it stands, and has no disc") {
+    planning::AircraftModel model = propeller_aircraft();
+    CHECK(model.discs.size() == 1);
+    models::TriangleMesh fan; // reaches beyond the blades of the polygons
+    fan.vertices_m = {{5, 0, 0}};
+    for (std::uint32_t i = 0; i < 12; ++i) {
+        const double turn = std::numbers::pi / 6.0 * i;
+        fan.vertices_m.emplace_back(5.0, 6.5 * std::cos(turn), 6.5 * std::sin(turn));
+        fan.triangles.push_back({0, 1 + i, 1 + (i + 1) % 12});
+    }
+    const std::array<planning::MovingPartMesh, 1> parts{{{&fan, 0, {}}}};
+    planning::add_moving_parts(model, parts);
+    CHECK(model.turning.polygons == 12);
+    CHECK(model.discs.empty());
+    CHECK(model.opacity_runs.empty());
+    planning::Scene scene = small_scene({std::move(model)}, {0});
+    const scene::Settings settings = plain_settings();
+    planning::Planner planner(scene, settings);
+    const std::array states{state_at({0, 30, 0})};
+    const scene::FramePlan& plan = planner.plan({scene::camera_looking_at({20, 0, -5}, {0, 30, 0}), states}).plan;
+    CHECK(std::ranges::none_of(plan.steps,
+        [](const scene::PaintStep& step) { return step.content == scene::PaintStep::Content::Transparent; }));
 }
