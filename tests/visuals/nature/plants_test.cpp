@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <random>
 #include <utility>
+#include <utility>
 #include <vector>
 
 using namespace octant::visuals::nature;
