@@ -17,7 +17,7 @@ constexpr std::array ring_distance_ratios = {
 constexpr double flat_ratio = 1.0; ///< from this ring on the land lies at the mean height
 /// Small maps' flat rings are farther off, so that the outermost one is at least so far.
 constexpr double min_reach_m = 20000.0;
-constexpr double full_colour_share = 0.4; ///< of the reach: from here on colours fade to the mean one
+constexpr double full_colour_share = 0.2; ///< of the reach: from here on colours fade to the mean one
 constexpr int vertices_per_side = 48;
 constexpr int vertices_per_ring = 4 * vertices_per_side;
 constexpr double overlap_depth_ratio = 0.02; ///< of the last ring, over the map's mean half extent
@@ -68,7 +68,7 @@ Backdrop::BackdropVertex vertex_at(const BackdropSource& map, double share, doub
     const double contrast = 1.0 - glm::smoothstep(full_colour_share * reach, reach, share);
     const double height_m = glm::mix(map.mean_height_m, map.height_m(mirrored_m), relief) -
                             (share < 0.0 ? overlap_depth_ratio * size_m : 0.0);
-    const double footprint_m = std::max(1.2 / vertices_per_side, gap) * size_m;
+    const double footprint_m = std::max(1.2 / vertices_per_side, 0.5 * gap) * size_m;
     return {{at_m, height_m},
         glm::mix(map.mean_colour, map.colour(mirrored_m, footprint_m), static_cast<float>(contrast)),
         map.cover_code ? map.cover_code(mirrored_m, footprint_m) : 0.0F, is_water(mirrored_m)};

@@ -66,7 +66,7 @@ CrownPoint surface_of(const Clumps& clumps, const glm::vec3& way) {
             surface.normal = glm::normalize((exit * way - ball.centre) / ball.radius + 0.6F * way);
         }
     }
-    surface.openness = (0.25F + 0.75F * glm::smoothstep(0.62F, 0.98F, surface.radius)) *
+    surface.openness = (0.4F + 0.6F * glm::smoothstep(0.62F, 0.98F, surface.radius)) *
                        (0.50F + 0.50F * glm::smoothstep(-0.9F, 0.6F, way.z));
     // Crowns are flat below.
     if (way.z < 0.0F) { surface.radius = std::max(surface.radius, 0.8F) * 1.1F; }

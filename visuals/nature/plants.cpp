@@ -89,9 +89,9 @@ PlantMesher::PlantMesher(const Daylight& day)
 
 /// Leaves scatter light: sides just beyond the sun's reach have some.
 PlantMesher::Light PlantMesher::light_on(const glm::vec3& normal, float openness) const {
-    constexpr float scattered = 0.25F;
+    constexpr float scattered = 0.5F;
     const float towards = (glm::dot(normal, to_sun_) + scattered) * (1.0F / (1.0F + scattered));
-    return {openness * (0.62F + 0.38F * normal.z), openness * std::max(towards, 0.0F)};
+    return {openness * (0.72F + 0.28F * normal.z), openness * std::max(towards, 0.0F)};
 }
 
 glm::vec3 PlantMesher::lit(const Plant& plant, const glm::vec3& own, const Light& light) const {

@@ -10,7 +10,6 @@
 #include <cstdint>
 #include <random>
 #include <utility>
-#include <utility>
 #include <vector>
 
 using namespace octant::visuals::nature;
