@@ -91,13 +91,14 @@ TEST_CASE("where two covers are mixed, each has the larger part of a pixel on it
 TEST_CASE("colours go on from each mixture to the next, so that none has an edge") {
     const LandCoverContrast contrast({wood, meadow, rock, snow}, pattern());
     constexpr int last_step = LandCoverContrast::pattern_step_count - 1;
+    const auto shares = share_of_patterns();
     for (int kind = 1; kind < LandCoverContrast::mixture_count; ++kind) {
         const bool is_inverted = kind == LandCoverContrast::first_open_mixture; // and so is the pattern there
         double squares = 0.0;
         for (int i = 0; i <= last_step; ++i) {
             const float before = shares_at(contrast, kind - 1, is_inverted ? last_step - i : i).y;
             const double step = static_cast<double>(shares_at(contrast, kind, i).y - before);
-            squares += share_of_patterns()[static_cast<std::size_t>(i)] * step * step;
+            squares += shares[static_cast<std::size_t>(i)] * step * step;
         }
         CAPTURE(kind);
         CHECK(std::sqrt(squares) < 0.09);
