@@ -35,6 +35,9 @@ glm::dvec3 direction_from_heading(double heading_rad);
 /// A level vector, x east and y north, turned clockwise seen from above.
 glm::dvec2 rotated_clockwise(const glm::dvec2& east_north, double by_rad);
 
+/// Twice the area of the triangle that two vectors span: positive where `b` lies to the left of `a`.
+inline double cross(const glm::dvec2& a, const glm::dvec2& b) { return a.x * b.y - a.y * b.x; }
+
 /// The same angle in [0, 2 pi).
 double wrapped_to_two_pi(double angle_rad);
 

@@ -3,6 +3,7 @@
 #include "visuals/draworder/occlusion.h"
 
 #include "models/polygons/polygon_outlines.h"
+#include "sim/base/axes.h"
 #include "sim/base/units.h"
 #include "visuals/draworder/occlusion_graph.h"
 #include "visuals/separation/convex_separation.h"
@@ -307,8 +308,6 @@ ModelFaces model_faces(const models::polygons::PolygonModel& model, const glm::d
 namespace {
 
 constexpr double rounding = 1e-12;
-
-double cross(const glm::dvec2& a, const glm::dvec2& b) { return a.x * b.y - a.y * b.x; }
 
 /// Whether the sine of the angle from one vector to another, which make a negative cross product, is so by more than
 /// rounding, given the square of the length of one of them; the other is a unit.

@@ -7,6 +7,7 @@
 #include "visuals/draworder/draw_order.h"
 #include "visuals/overlay/instrument_panel.h"
 #include "visuals/planning/bounding_box.h"
+#include "visuals/planning/rotor_discs.h"
 #include "visuals/refine/mesh_creases.h"
 #include "visuals/refine/mesh_textures.h"
 #include "visuals/refine/progressive_mesh.h"
@@ -55,24 +56,6 @@ int select_level(std::span<const double> errors_m, double max_m, int before);
 /// dial_speed, dial_altitude, dial_attitude, dial_heading or dial_load, as large as fits. These polygons lie ahead and
 /// square to the x axis. The scales cover `limits`. Loading work.
 overlay::InstrumentLayout dials_of(const models::polygons::PolygonModel& cockpit, const sim::AircraftLimits& limits);
-
-/// A rotor or propeller that turns so fast that it is seen as a disc in place of its blades. Body axes, metres.
-struct RotorDisc {
-    /// The disc as it is seen from one side of its plane. A polygon of the blades faces that side at every angle, and
-    /// the body that it sweeps holds the disc: in an order that holds at every angle the disc has that polygon's place.
-    struct Side {
-        std::uint32_t polygon = models::none; ///< none: no blade is seen from this side, where the disc is not drawn
-        glm::dvec3 centre_m{0.0};
-        double radius_m = 0.0;
-    };
-
-    /// Indices into PolygonModel::pivots of all that turn in this place, blade by blade perhaps; the first one's axis
-    /// is the disc's.
-    std::vector<std::uint32_t> pivots;
-    double root_m = 0.0;           ///< the radius at which the disc begins; polygons that reach beyond it are blades
-    std::array<Side, 2> sides;     ///< seen from the side to which the axis points, and from the other one
-    scene::IndexRange blades = {}; ///< of AircraftModel::turning; empty on models without it
-};
 
 /// Polygons of a list that are drawn alike, up to the first one of the next run. A polygon of RotorDisc::sides has a
 /// run of its own.

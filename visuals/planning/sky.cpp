@@ -82,9 +82,6 @@ double deepest_rad(const SurroundingPlain& plain) {
     return std::clamp(deepest, rad_from_deg(3.0), pi / 2.0);
 }
 
-/// Twice the area of the triangle that two vectors span: positive where `to` lies to the left of `from`.
-double turn(const glm::dvec2& from, const glm::dvec2& to) { return from.x * to.y - from.y * to.x; }
-
 } // namespace
 
 glm::vec3 through_haze(const scene::Haze& haze, const glm::dvec3& position_m, const glm::vec3& own) {
@@ -265,7 +262,7 @@ void Sky::show_land(const glm::dvec2& eye_m) {
     const auto first = static_cast<std::uint32_t>(sky_vertices_);
     const std::size_t cells = land_.outer_vertices;
     const auto at_m = [this](std::size_t vertex) { return glm::dvec2(land_.vertices[vertex].at_m); };
-    const auto is_left_of = [&](std::size_t corner) { return turn(at_m(corner % cells), eye_m) >= 0.0; };
+    const auto is_left_of = [&](std::size_t corner) { return cross(at_m(corner % cells), eye_m) >= 0.0; };
     std::size_t own_cell = 0;
     while (own_cell + 1 < cells && !(is_left_of(own_cell) && !is_left_of(own_cell + 1))) { ++own_cell; }
     for (std::size_t ring = 0; ring < land_.indices.size(); ring += 6 * cells) {
@@ -275,7 +272,7 @@ void Sky::show_land(const glm::dvec2& eye_m) {
             const auto outside = [&](std::size_t corner) { return outside_[first + cell[corner]]; };
             if ((outside(0) & outside(1) & outside(2) & outside(5)) != 0) { continue; }
             const glm::dvec2 inner_m = at_m(cell[2]);
-            const bool outer_first = turn(at_m(cell[0]) - inner_m, eye_m - inner_m) <= 0.0;
+            const bool outer_first = cross(at_m(cell[0]) - inner_m, eye_m - inner_m) <= 0.0;
             show_triangle(outer_first ? cell : cell + 3, first);
             show_triangle(outer_first ? cell + 3 : cell, first);
         }

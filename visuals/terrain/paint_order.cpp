@@ -8,6 +8,8 @@
 // with the eye, a ray crosses part of one chain, in order.
 #include "visuals/terrain/paint_order.h"
 
+#include "sim/base/axes.h"
+
 #include <algorithm>
 
 namespace octant::visuals::terrain {
@@ -81,8 +83,6 @@ constexpr PartOrder parts_by_number() {
 constexpr std::array<PartOrder, wedges> back_to_front = orders_for_all_wedges(PaintOrder::BackToFront);
 constexpr std::array<PartOrder, wedges> front_to_back = orders_for_all_wedges(PaintOrder::FrontToBack);
 constexpr PartOrder by_number = parts_by_number();
-
-double cross(const glm::dvec2& a, const glm::dvec2& b) { return a.x * b.y - a.y * b.x; }
 
 /// A part of a cut fan while it is being sorted.
 struct CutPart {
