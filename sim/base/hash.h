@@ -52,8 +52,8 @@ private:
     std::uint64_t value_ = 0xcbf29ce484222325ULL;
 };
 
-/// The hash of so many bytes that time counts: of four hashes, each of a quarter of them. A word of one need not wait
-/// for those of the others.
+/// A faster hash for large inputs: the hash of four hashes, each of one quarter of the bytes. A processor works on the
+/// four at the same time, as none needs the result of another.
 inline std::uint64_t hash_by_quarters(std::span<const std::byte> bytes) {
     const std::size_t size = bytes.size() / 32 * 8; // what is left over belongs to the last quarter
     const auto word_at = [&](std::size_t at) {

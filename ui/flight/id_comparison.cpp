@@ -88,7 +88,7 @@ ComparisonSettings comparison_settings(const settings::RunSettings& settings) {
     }
     settings::RunSettings& depth_buffered = compared.depth_buffered;
     depth_buffered.surface.hidden_surface = scene::HiddenSurface::DepthBuffer;
-    // What is seen through has no numbers, and no depth. Both have the same blades.
+    // Transparent things have no object numbers and no depth: neither picture has them. Discs of rotors stay as set.
     if (settings.surface.effects == true) { depth_buffered.surface.effects.reset(); }
     depth_buffered.air.clouds = 0.0;
     depth_buffered.view.path_ribbon = false;

@@ -35,9 +35,9 @@ struct Backdrop {
     };
 
     std::vector<BackdropVertex> vertices;
-    /// Triangles counter-clockwise seen from above. Rings from outside in, each of as many cells as it has vertices;
-    /// a cell is the triangle of its outer side (outer corner, next outer one, next inner one) and that of its inner
-    /// side (outer corner, next inner one, inner one). Sides between cells lie on lines through the map's middle.
+    /// Triangles counter-clockwise seen from above, in rings from the outermost to the innermost. A ring has one cell
+    /// for each of its vertices. A cell has two triangles: (outer corner, next outer corner, next inner corner) and
+    /// (outer corner, next inner corner, inner corner). The sides between cells lie on lines through the map's middle.
     std::vector<std::uint32_t> indices;
     std::size_t outer_vertices = 0; ///< the first so many are those of the outermost ring; all rings have as many
 };

@@ -38,10 +38,10 @@ public:
         return {in_plant.x, in_plant.y, (in_plant.z - centre_) / half_height_};
     }
 
-    /// No place of the surface is lower, in heights of the plant. Straight below its centre the crown reaches it.
+    /// The lowest height of the surface, in heights of the plant. The surface has it straight below the centre.
     float lowest() const { return lowest_; }
 
-    /// Clumps of leaves end on spokes of CrownSide if it is a cone, and between them if not.
+    /// True for conifers. The outline of a cone is widest on the spokes of CrownSide, that of others between them.
     bool is_cone() const { return is_cone_; }
 
     /// How much nearer to the middle the outline is between two ends, as a share. `number`: of a spoke.
@@ -88,8 +88,8 @@ struct CrownSide {
     static constexpr std::size_t spokes = 12;
     static constexpr std::size_t max_corners = 4 * spokes;
 
-    /// `eye`: in the crown's space. `fineness`: 0: 12 corners on the outline and no ring. As it grows to 1 the ring
-    /// comes, and then to 2 and 3 twice as many corners come each time.
+    /// `eye`: in the crown's space. `fineness`, 0 to 3: at 0 the outline has 12 corners and there is no ring; from 0
+    /// to 1 the ring moves to its place; at 2 the outline has 24 corners and at 3 it has 48.
     CrownSide(const Crown& crown, const glm::vec3& eye, float fineness);
 
     Corner middle;

@@ -62,7 +62,7 @@ glm::vec2 turned(const glm::vec2& way, const glm::vec2& turn) {
     return {turn.x * way.x - turn.y * way.y, turn.y * way.x + turn.x * way.y};
 }
 
-/// How far what comes between two sizes has come.
+/// The share, 0 to 1, to which a detail is shown that appears between two sizes, pixels.
 float come_at(float px, const glm::vec2& between) {
     return std::clamp((px - between.x) / (between.y - between.x), 0.0F, 1.0F);
 }

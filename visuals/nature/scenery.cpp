@@ -39,8 +39,8 @@ constexpr float spare_share = 0.6F;          ///< of the triangles, after which 
 constexpr double crowd_reach_m = 250.0;      ///< from the eye
 constexpr float house_circle_m = 4.0F;       ///< no house where less fits
 constexpr float first_growth_ratio = 0.34F;  ///< of the reach: all things have grown by then
-constexpr glm::vec2 shadow_px(46.0F, 66.0F); ///< things look so high where their shadows begin and are whole
-constexpr glm::vec2 rim_px(100.0F, 170.0F);  ///< and so high where a soft rim begins and is whole
+constexpr glm::vec2 shadow_px(46.0F, 66.0F); ///< heights of things at which their shadows begin and are whole
+constexpr glm::vec2 rim_px(100.0F, 170.0F);  ///< heights at which a soft rim begins and is whole
 constexpr float conifer_taper = 0.5F;
 constexpr float layer_part = 0.125F;            ///< of a layer: from one shadow to the next above it
 constexpr float shadow_radius_m = 5.0F;         ///< of most of them

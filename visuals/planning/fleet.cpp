@@ -227,9 +227,9 @@ void Fleet::choose_representation(PlacedAircraft& aircraft, const FrameView& vie
     last = aircraft.representation;
 }
 
-/// How strong the discs of a model are, whose parts are placed by these matrices: 0 for rotors that a host program
-/// holds, in the order of the 1989 paper, which holds at one angle alone, and where the settings say so. A disc of few
-/// pixels fades.
+/// The strength, 0 to 1, of each disc of a model whose parts are placed by these matrices. It is 0 for rotors that a
+/// host program holds, with the painting order of the 1989 paper, which holds at one angle alone, and without effects.
+/// It falls to 0 for discs of few pixels.
 std::vector<float> Fleet::disc_strengths(const PlacedAircraft& aircraft, const AircraftModel& model,
     std::span<const glm::dmat4> parts, const PartPositions& positions, const FrameView& view) const {
     std::vector<float> strengths(model.discs.size(), 0.0F);

@@ -316,7 +316,8 @@ namespace {
 /// Share of a sunlit surface's colour that is left where a shadow is darkest.
 constexpr float shadow_share = 0.55F;
 constexpr double sun_diameter_rad = 0.0093;
-/// A shadow has another edge for so many pixels of its penumbra, but at most max_edges, and fewer where it is faint.
+/// Width of penumbra, pixels, for each edge of a shadow. A shadow has at most max_edges edges, and fewer if it is
+/// faint.
 constexpr double edge_px = 2.5;
 constexpr int max_edges = 5;
 /// The least darkening from one edge to the next, a share of the light.

@@ -48,7 +48,7 @@ struct Feature {
 
 double share_in(double value) { return value; }
 
-/// A half where the flag is not set, which is neither of its values.
+/// 0.5 for a flag that is not set. put_share() makes 0 false, 1 true, and others not set.
 double share_in(const std::optional<bool>& value) { return !value ? 0.5 : *value ? 1.0 : 0.0; }
 
 void put_share(double share, double& value) { value = share; }
